@@ -1,0 +1,185 @@
+"""What a scenario describes, as plain immutable data.
+
+Everything is in SI units, angles in rad, quaternions x, y, z, w, vectors in the fixed frame.
+The objects of this module hold checked values: they are made by
+:mod:`deformable_manipulation.scenario.loader`, which reports every mistake of a file at once.
+"""
+
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+Vector = Tuple[float, float, float]
+Quaternion = Tuple[float, float, float, float]
+
+LEADER = "leader"
+ASSISTANT = "assistant"
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Position [m] and orientation (unit quaternion x, y, z, w)."""
+
+    position: Vector = (0.0, 0.0, 0.0)
+    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class RodSpec:
+    """A rope or rod: ``segments`` rigid segments end to end.
+
+    Undeformed it lies along the x axis of ``pose``, from its first end at the origin.
+    """
+
+    length: float  # m
+    radius: float  # m
+    density: float  # kg/m^3
+    segments: int
+    young_modulus: float  # Pa, bending
+    torsion_modulus: float  # Pa, twist
+    stretch: str = "zero"  # "zero", or "from_moduli": axial stiffness E A
+    damping: float = 10.0  # 1/s, of motion relative to the held points
+    pose: Pose = Pose()
+
+    type = "rod"
+
+    @property
+    def particles(self) -> int:
+        """Number of particles that can be held (the segments)."""
+        return self.segments
+
+
+@dataclass(frozen=True)
+class AgentSpec:
+    """A robot or person that holds one particle of the object."""
+
+    name: str
+    particle: int
+    role: str  # LEADER or ASSISTANT
+    hold: str = "clamped"  # "clamped": keeps the particle's orientation; "pinned": leaves it free
+    start: Vector = (0.0, 0.0, 0.0)  # m, held point at the start
+    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)  # of the held particle at the start
+
+
+@dataclass(frozen=True)
+class PolygonObstacle:
+    """A polygon in a plane, endless along the plane's normal.
+
+    A point (a, b) of the ring lies at ``translation + rotation * embed(a, b)``, where ``embed``
+    puts a and b on the two axes that ``plane`` names ("yz": a on y, b on z).
+    """
+
+    name: str
+    points: Tuple[Tuple[float, float], ...]  # m, ring; the last point need not repeat the first
+    plane: str = "yz"  # "xy", "yz" or "xz"
+    translation: Vector = (0.0, 0.0, 0.0)  # m
+    rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """Where the leader is at a time, relative to its start."""
+
+    time: float  # s
+    position: Vector  # m
+
+
+@dataclass(frozen=True)
+class LeaderSpec:
+    """The leader's scripted path; smooth between the waypoints, at rest before and after."""
+
+    waypoints: Tuple[Waypoint, ...]
+
+
+@dataclass(frozen=True)
+class CollisionSpec:
+    """Barrier that keeps the object off the obstacles (paper, eq. 3)."""
+
+    offset: float  # m, distance to keep, from surface to surface
+    alpha: Tuple[float, float] = (1.0, 5.0)  # 1/s, slopes of alpha(h) for h >= 0 and h < 0
+    band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
+    gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
+
+
+@dataclass(frozen=True)
+class OverstretchSpec:
+    """Barrier that keeps two agents from overstretching the object (paper, eq. 6)."""
+
+    max_distance: Optional[float] = None  # m between held points; None: 99 % of the free length
+    alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
+
+
+@dataclass(frozen=True)
+class ProximitySpec:
+    """Barrier that keeps two agents apart (paper, eq. 9)."""
+
+    min_distance: Optional[float] = None  # m between held points; None: 10 % of the free length
+    alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
+
+
+@dataclass(frozen=True)
+class ControllerSpec:
+    """The assistants' safe velocity controller."""
+
+    collision: CollisionSpec
+    overstretch: OverstretchSpec = OverstretchSpec()
+    proximity: ProximitySpec = ProximitySpec()
+    rate: float = 100.0  # Hz, cycles per second
+    gain: float = 1.0  # 1/s, k_p
+    weights: Vector = (1.0, 1.0, 1.0)  # gamma, cost of departing from the nominal velocity per axis
+    max_velocity: float = 0.15  # m/s, bound on every component
+    max_acceleration: float = 1.0  # m/s^2, bound on every component
+    perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
+    feedforward: bool = True  # leader's velocity in the nominal law and in the rows
+    solver: str = "quadprog"  # of qpsolvers
+    timeout: float = 0.2  # s, age at which an input counts as lost
+
+
+@dataclass(frozen=True)
+class SimulationSpec:
+    """How the object is simulated and for how long."""
+
+    duration: float  # s
+    time_step: float = 0.01  # s; a whole number of them makes one controller cycle
+    substeps: int = 10  # per time step
+    solver: str = "gauss_seidel"  # of the rod's constraints
+    gravity: Vector = (0.0, 0.0, -9.81)  # m/s^2
+    record_rate: float = 10.0  # Hz, frames in states.npz
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A whole run: object, agents, obstacles, leader, controller, simulation."""
+
+    name: str
+    object: RodSpec
+    agents: Tuple[AgentSpec, ...]  # in the file's order; exactly one leader
+    obstacles: Tuple[PolygonObstacle, ...]
+    leader: LeaderSpec
+    controller: ControllerSpec
+    simulation: SimulationSpec
+    frame: str = "map"  # the fixed frame
+
+    @property
+    def leader_index(self) -> int:
+        """Index of the leader in ``agents``."""
+        return next(i for i, agent in enumerate(self.agents) if agent.role == LEADER)
+
+    @property
+    def assistants(self) -> Tuple[int, ...]:
+        """Indices of the assistants in ``agents``."""
+        return tuple(i for i, agent in enumerate(self.agents) if agent.role == ASSISTANT)
+
+    @property
+    def cycle_time(self) -> float:
+        """Seconds per controller cycle."""
+        return 1.0 / self.controller.rate
+
+    @property
+    def steps_per_cycle(self) -> int:
+        """Simulation time steps per controller cycle."""
+        return round(self.cycle_time / self.simulation.time_step)
+
+    @property
+    def cycles(self) -> int:
+        """Controller cycles in the whole run."""
+        return round(self.simulation.duration * self.controller.rate)
