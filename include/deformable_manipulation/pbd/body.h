@@ -1,0 +1,191 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "deformable_manipulation/pbd/types.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! A particle that an agent holds, and how it moves.
+struct HeldPoint {
+  int particle;
+  Hold type;
+  Pose pose;    //!< in the body itself (copy 0)
+  Twist twist;  //!< constant until changed
+};
+
+//! A perturbed copy of the body: the same object with one held point displaced.
+struct PerturbedCopy {
+  int id;                //!< never used again after the copy is removed
+  int particle;          //!< held particle that is displaced
+  Vector3 requested;     //!< [m] displacement asked for
+  Vector3 target;        //!< [m] where it goes: the request, shortened or turned round to stay in reach
+  Vector3 present;       //!< [m] where it is
+  double resting = 0.0;  //!< [s] since it arrived at its target
+
+  //! True when the copy has arrived and calmed down: only then differences to copy 0 mean anything.
+  bool ready() const;
+};
+
+//! When a body counts as settled.
+struct SettleOptions {
+  double time_step = 0.01;        //!< [s]
+  int substeps = 10;
+  double speed_tolerance = 1e-4;  //!< [m/s] of the fastest particle of all copies
+  double time_limit = 60.0;       //!< [s] simulated
+};
+
+//! A deformable object and its perturbed copies, simulated by position-based dynamics.
+//!
+//! Copy 0 is the object itself; copies()[c - 1] describes copy c. All copies are held at the same
+//! particles and advance together. Positions are in the fixed frame [m].
+class Body {
+ public:
+  virtual ~Body() = default;
+
+  //! An independent body in the same state.
+  virtual std::unique_ptr<Body> clone() const = 0;
+
+  //! Particles that can be held.
+  virtual int particleCount() const = 0;
+
+  //! Geometry points per copy (see points()).
+  virtual int pointCount() const = 0;
+
+  //! [m] Largest possible distance between two particles of the unstretched object.
+  virtual double freeLength(int particle, int other) const = 0;
+
+  //! [kg]
+  virtual double mass() const = 0;
+
+  // Holding ------------------------------------------------------------------------------------
+
+  //! Holds a particle where it is now.
+  //! @throw std::out_of_range if there is no such particle, std::invalid_argument if it is held already.
+  void hold(int particle, Hold type);
+
+  //! Holds a particle and puts it at a pose.
+  //! @throw as above, and std::invalid_argument if the pose is not finite or not of norm 1.
+  void hold(int particle, Hold type, const Pose& pose);
+
+  //! Lets a particle go; copies that displace it are removed.
+  //! @throw std::invalid_argument if the particle is not held.
+  void release(int particle);
+
+  //! Sets the velocity with which a held particle moves from now on.
+  //! @throw std::invalid_argument if the particle is not held or the twist is not finite.
+  void setTwist(int particle, const Twist& twist);
+
+  //! Puts a held particle at a pose at once, for agents whose pose is given by others.
+  //! @throw std::invalid_argument as for hold().
+  void setPose(int particle, const Pose& pose);
+
+  const std::vector<HeldPoint>& holds() const { return holds_; }
+
+  //! @throw std::invalid_argument if the particle is not held.
+  const HeldPoint& held(int particle) const;
+
+  //! What the object exerts on the agent that holds this particle, from the last substep; the
+  //! inertia of the held particle itself is left out.
+  //! @throw std::invalid_argument if the particle is not held.
+  virtual Wrench wrench(int particle) const = 0;
+
+  // Copies -------------------------------------------------------------------------------------
+
+  //! Adds a copy; it starts as the object is now and moves to its displacement.
+  //! @return the copy's id
+  //! @throw std::invalid_argument if the particle is not held, or the displacement is zero, not
+  //! finite or longer than the object.
+  int addCopy(int particle, const Vector3& displacement);
+
+  //! @throw std::invalid_argument if there is no such copy.
+  void removeCopy(int id);
+
+  const std::vector<PerturbedCopy>& copies() const { return copies_; }
+
+  //! Copy 0 and the perturbed copies.
+  int copyCount() const { return static_cast<int>(copies_.size()) + 1; }
+
+  // Time ---------------------------------------------------------------------------------------
+
+  //! Places every copy, at rest and undisplaced, on a curve of the right length between the held points.
+  virtual void layOut() = 0;
+
+  //! Advances all copies by a time step.
+  //! @throw NonFiniteState if the state is no longer finite.
+  void step(double time_step, int substeps);
+
+  //! Advances with the held points at rest until nothing moves any more.
+  //! @return whether it settled within the time limit
+  //! @throw NonFiniteState
+  bool settle(const SettleOptions& options);
+
+  // Reading ------------------------------------------------------------------------------------
+
+  //! Geometry points of all copies, [copyCount x pointCount x 3] numbers.
+  virtual void points(double* to) const = 0;
+
+  //! Particle positions of one copy, [particleCount x 3].
+  virtual void positions(int copy, double* to) const = 0;
+
+  //! Particle velocities of one copy, [particleCount x 3] m/s.
+  virtual void velocities(int copy, double* to) const = 0;
+
+  //! Particle orientations of one copy, [particleCount x 4] x y z w; false if particles have none.
+  virtual bool orientations(int copy, double* to) const = 0;
+
+ protected:
+  Body() = default;
+  Body(const Body&) = default;
+  Body& operator=(const Body&) = default;
+
+  //! Pose of a particle of copy 0.
+  virtual Pose particlePose(int particle) const = 0;
+
+  //! The set of holds or the kind of one has changed.
+  virtual void holdsChanged() = 0;
+
+  //! Makes room for copyCount() copies.
+  virtual void resizeCopies() = 0;
+
+  //! Overwrites the state of one copy with that of another.
+  virtual void assignCopy(int to, int from) = 0;
+
+  //! Called before the substeps of a step, with the holds' twists final.
+  virtual void beginStep(double h) = 0;
+
+  //! One substep of h [s]; holds() and copies() are where they are at its end.
+  virtual void substep() = 0;
+
+  //! First particle of a copy whose state is not finite, or -1.
+  virtual int firstNonFinite(int copy) const = 0;
+
+  //! [m/s] of the fastest particle of all copies.
+  virtual double highestSpeed() const = 0;
+
+  //! Takes all velocities away.
+  virtual void stop() = 0;
+
+  //! Where the held point of a copy is.
+  Vector3 heldPosition(const HeldPoint& held, int copy) const;
+
+  void requireParticle(int particle) const;
+
+ private:
+  HeldPoint& findHeld(int particle);
+  void advanceHolds(double h);
+  void retargetCopies();
+  void advanceCopies(double h);
+  bool inReach(const PerturbedCopy& copy, const Vector3& displacement, double margin) const;
+  void checkFinite() const;
+
+  std::vector<HeldPoint> holds_;
+  std::vector<PerturbedCopy> copies_;
+  int next_id_ = 1;
+  long steps_ = 0;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+
+#include "deformable_manipulation/pbd/body.h"
+#include "deformable_manipulation/pbd/rod_parameters.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! A rope or rod: rigid segments, joined by zero-stretch bending-twisting constraints (Deul et al.
+//! 2018), with small substeps (Macklin et al. 2019); Algorithm 1 of the paper.
+//!
+//! The particles are the segments, held at their centres; the geometry points the N + 1 ends.
+class Rod final : public Body {
+ public:
+  //! A straight rod at rest at its pose, held nowhere.
+  //! @throw ParameterError
+  explicit Rod(const RodParameters& parameters);
+  ~Rod() override;
+
+  const RodParameters& parameters() const { return parameters_; }
+
+  //! Changes the material while running; the shape and the motion stay.
+  //! @throw ParameterError; nothing changes then.
+  void setMaterial(double young_modulus, double torsion_modulus, double damping);
+
+  std::unique_ptr<Body> clone() const override;
+  int particleCount() const override { return parameters_.segments; }
+  int pointCount() const override { return parameters_.segments + 1; }
+  double freeLength(int particle, int other) const override;
+  double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
+  Wrench wrench(int particle) const override;
+  void layOut() override;
+  void points(double* to) const override;
+  void positions(int copy, double* to) const override;
+  void velocities(int copy, double* to) const override;
+  bool orientations(int copy, double* to) const override;
+
+ protected:
+  Pose particlePose(int particle) const override;
+  void holdsChanged() override;
+  void resizeCopies() override;
+  void assignCopy(int to, int from) override;
+  void beginStep(double h) override;
+  void substep() override;
+  int firstNonFinite(int copy) const override;
+  double highestSpeed() const override;
+  void stop() override;
+
+ private:
+  struct State;
+  Rod(const Rod& other);
+
+  void updateReferenceMotion();
+  void placeCopy(int copy, const std::vector<Pose>& segments);
+
+  RodParameters parameters_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

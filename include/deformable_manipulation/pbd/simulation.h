@@ -1,0 +1,107 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deformable_manipulation/pbd/body.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! An agent that holds one particle of the object and moves as commanded.
+struct Agent {
+  std::string name;
+  int particle = 0;
+  Hold hold = Hold::CLAMPED;
+  Pose start;  //!< held point at the start
+};
+
+//! A perturbed copy: the held point of one agent displaced.
+struct Perturbation {
+  int agent;
+  Vector3 displacement;  //!< [m]
+};
+
+//! Division of time.
+struct Clock {
+  double time_step = 0.01;  //!< [s]
+  int substeps = 2;         //!< per time step
+  int steps_per_cycle = 1;  //!< time steps between two states
+
+  double cycleTime() const { return time_step * steps_per_cycle; }
+
+  //! @throw ParameterError
+  void check() const;
+};
+
+//! A deformable object carried by velocity-controlled agents, with its perturbed copies.
+//!
+//! It starts settled between the agents. A command set between two advances acts in the next one
+//! and holds until it is replaced.
+class Simulation {
+ public:
+  //! Settles the object between the agents' starts.
+  //! @param perturbations  copies that are there, displaced and settled, from the start on
+  //! @throw ParameterError with everything that is wrong with agents, perturbations or clock
+  //! @throw NonFiniteState
+  Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents, const std::vector<Perturbation>& perturbations,
+             const Clock& clock);
+
+  //! False if the object still moved when settling was given up.
+  bool settled() const { return settled_; }
+
+  //! @throw std::out_of_range if there is no such agent, std::invalid_argument if the twist is not finite.
+  void setCommand(int agent, const Twist& twist);
+
+  //! Advances by a cycle. @throw NonFiniteState
+  void advance();
+
+  //! Back to the settled start; raises resetCount().
+  void reset();
+
+  //! Adds a copy while running. @return its id
+  //! @throw std::out_of_range, std::invalid_argument as Body::addCopy().
+  int addPerturbation(const Perturbation& perturbation);
+
+  //! Removes copies by their ids. @throw std::invalid_argument if there is no such copy.
+  void removePerturbations(const std::vector<int>& ids);
+
+  //! Removes the copies that displace an agent.
+  void clearPerturbations(int agent);
+
+  const Body& body() const { return *body_; }
+  const std::vector<Agent>& agents() const { return agents_; }
+  const Clock& clock() const { return clock_; }
+
+  //! Index of the agent that holds a particle, or -1.
+  int agentOf(int particle) const;
+
+  //! Held point of an agent. @throw std::out_of_range
+  const HeldPoint& held(int agent) const;
+
+  //! The velocity with which an agent came to the present state. @throw std::out_of_range
+  const Twist& twist(int agent) const;
+
+  //! What the object exerts on an agent. @throw std::out_of_range
+  Wrench wrench(int agent) const;
+
+  long cycle() const { return cycle_; }
+  int resetCount() const { return reset_count_; }
+  double time() const { return cycle_ * clock_.cycleTime(); }  //!< [s] since the start
+
+ private:
+  const Agent& agent(int index) const;
+
+  std::vector<Agent> agents_;
+  Clock clock_;
+  std::unique_ptr<Body> body_;
+  std::unique_ptr<Body> start_;  // as settled
+  std::vector<Twist> twists_;
+  bool settled_ = false;
+  long cycle_ = 0;
+  int reset_count_ = 0;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

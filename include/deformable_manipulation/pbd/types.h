@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace deformable_manipulation {
+namespace pbd {
+
+using Vector3 = Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+//! How an agent holds a particle.
+enum class Hold {
+  CLAMPED,  //!< position and orientation follow the agent
+  PINNED    //!< the position follows the agent, the orientation is free
+};
+
+//! Position [m] and orientation of a held particle in the fixed frame.
+struct Pose {
+  Vector3 position = Vector3::Zero();
+  Quaternion orientation = Quaternion::Identity();
+};
+
+//! Linear [m/s] and angular [rad/s] velocity in the fixed frame.
+struct Twist {
+  Vector3 linear = Vector3::Zero();
+  Vector3 angular = Vector3::Zero();
+};
+
+//! Force [N] and torque about the held point [N m] that the object exerts on an agent.
+struct Wrench {
+  Vector3 force = Vector3::Zero();
+  Vector3 torque = Vector3::Zero();
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

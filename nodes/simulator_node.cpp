@@ -1,0 +1,33 @@
+// Simulates the carried object, its perturbed copies and the agents; see docs/interfaces.md.
+
+#include <ros/ros.h>
+
+#include "../src/ros/simulator.h"
+#include "deformable_manipulation/pbd/errors.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulator");
+  ros::NodeHandle node;
+  ros::NodeHandle own("~");
+  XmlRpc::XmlRpcValue scenario;
+  if (!node.getParam("scenario", scenario)) {
+    ROS_FATAL_STREAM("Parameter " << node.resolveName("scenario")
+                                  << " is missing: start with launch/run.launch, which checks the scenario file and "
+                                     "puts it there.");
+    return 1;
+  }
+  deformable_manipulation::SimulatorOptions options;
+  own.param("lockstep", options.lockstep, options.lockstep);
+  own.param("stop_at_end", options.stop_at_end, options.stop_at_end);
+  own.param("state_subscribers", options.state_subscribers, options.state_subscribers);
+  try {
+    deformable_manipulation::Simulator(deformable_manipulation::readScenario(scenario), options).run();
+  } catch (const deformable_manipulation::pbd::ParameterError& error) {
+    ROS_FATAL_STREAM("The scenario cannot be simulated:\n" << error.what());
+    return 1;
+  } catch (const deformable_manipulation::pbd::NonFiniteState& error) {
+    ROS_FATAL_STREAM("The simulation stops: " << error.what() << ".");
+    return 1;
+  }
+  return 0;
+}

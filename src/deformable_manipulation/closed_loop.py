@@ -1,0 +1,111 @@
+"""The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
+
+import time
+
+from deformable_manipulation.control.controller import AssistantController
+from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.leader import LeaderController
+from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
+from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.simulation import make_simulation
+
+_PROGRESS_REPORTS = 100
+
+
+class ClosedLoop:
+    """Runs a scenario in lock-step: the same order and delay as the nodes (docs/interfaces.md).
+
+    In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
+    commands of cycle k - 1, and then takes the new ones.
+
+    Raises _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
+    """
+
+    def __init__(self, scenario: Scenario, safety: bool = True):
+        self._scenario = scenario
+        self._simulation = make_simulation(scenario)
+        self._distance = make_minimum_distance(scenario)
+        self._leader = LeaderController(scenario)
+        self._controllers = {
+            index: AssistantController(scenario, scenario.agents[index].name, safety)
+            for index in scenario.assistants
+        }
+        self._points = self._simulation.points()
+
+    def run(self, recorder=None, progress=None) -> None:
+        """Run the scenario to its end.
+
+        ``recorder`` gets a :class:`CycleRecord` per cycle; ``progress`` is called about a hundred
+        times with the fraction done.
+
+        Raises _pbd.NonFiniteState: the simulation broke down; what happened is in the text.
+        """
+        cycles = self._scenario.cycles
+        report_every = max(1, cycles // _PROGRESS_REPORTS)
+        for cycle in range(cycles):
+            record = self.step()
+            if recorder is not None:
+                recorder.record(record)
+            if progress is not None and (cycle + 1) % report_every == 0:
+                progress((cycle + 1) / cycles)
+
+    def step(self) -> CycleRecord:
+        """Answer the present state and advance to the next one."""
+        simulation = self._simulation
+        started = time.perf_counter()
+        observation = self._observe()
+        measured = time.perf_counter()
+        decisions = {
+            index: controller.update(observation) for index, controller in self._controllers.items()
+        }
+        leader = self._scenario.leader_index
+        leader_velocity = self._leader.update(observation.time, observation.positions[leader])
+        decided = time.perf_counter()
+        velocities = simulation.velocities()
+        points = self._points[0].copy()
+
+        advancing = time.perf_counter()
+        simulation.advance()
+        simulation.set_command(leader, leader_velocity)
+        for index, decision in decisions.items():
+            simulation.set_command(index, decision.command)
+        advanced = time.perf_counter()
+
+        return CycleRecord(
+            cycle=observation.cycle,
+            time=observation.time,
+            distance=float(observation.distances.minimum[0]),
+            positions=observation.positions,
+            velocities=velocities,
+            points=points,
+            decisions={
+                self._scenario.agents[index].name: decision for index, decision in decisions.items()
+            },
+            timings=CycleTimings(
+                simulation=advanced - advancing,
+                distance=measured - started,
+                controller=decided - measured,
+            ),
+        )
+
+    def _observe(self) -> Observation:
+        simulation = self._simulation
+        points = simulation.points(out=self._points)
+        return Observation(
+            time=simulation.time,
+            cycle=simulation.cycle,
+            positions=simulation.positions(),
+            points=points,
+            displaced_agents=simulation.displaced_agents(),
+            displacements=simulation.displacements(),
+            ready=simulation.ready(),
+            distances=self._distance.compute(points),
+        )
+
+
+def make_minimum_distance(scenario: Scenario) -> PlanarMinimumDistance:
+    """The distance computation for a scenario's object and obstacles."""
+    return PlanarMinimumDistance(
+        scenario.obstacles, scenario.object.radius, scenario.controller.collision.band
+    )

@@ -1,0 +1,57 @@
+"""The simulation core for a scenario."""
+
+from deformable_manipulation import _pbd
+from deformable_manipulation.scenario.spec import RodSpec, Scenario
+
+
+def make_body(scenario: Scenario) -> _pbd.Body:
+    """The scenario's object, undeformed and held nowhere.
+
+    Raises _pbd.ParameterError: a parameter is out of range.
+    """
+    spec: RodSpec = scenario.object
+    return _pbd.Rod(
+        length=spec.length,
+        radius=spec.radius,
+        density=spec.density,
+        segments=spec.segments,
+        young_modulus=spec.young_modulus,
+        torsion_modulus=spec.torsion_modulus,
+        stretch=spec.stretch,
+        damping=spec.damping,
+        solver=scenario.simulation.solver,
+        gravity=scenario.simulation.gravity,
+        position=spec.pose.position,
+        orientation=spec.pose.orientation,
+    )
+
+
+def perturbations(scenario: Scenario):
+    """Displacements (agent index, (3,) [m]) of the copies: one per assistant and axis (paper,
+    section V)."""
+    displaced = []
+    for agent in scenario.assistants:
+        for axis, distance in enumerate(scenario.controller.perturbation):
+            displacement = [0.0, 0.0, 0.0]
+            displacement[axis] = distance
+            displaced.append((agent, displacement))
+    return displaced
+
+
+def make_simulation(scenario: Scenario) -> _pbd.Simulation:
+    """The object, settled between the agents at their starts, with its perturbed copies.
+
+    Raises _pbd.ParameterError: a parameter is out of range.
+    """
+    agents = [
+        (agent.name, agent.particle, agent.hold, agent.start, agent.orientation)
+        for agent in scenario.agents
+    ]
+    return _pbd.Simulation(
+        make_body(scenario),
+        agents,
+        perturbations(scenario),
+        time_step=scenario.simulation.time_step,
+        substeps=scenario.simulation.substeps,
+        steps_per_cycle=scenario.steps_per_cycle,
+    )

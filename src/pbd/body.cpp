@@ -1,0 +1,232 @@
+#include "deformable_manipulation/pbd/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "deformable_manipulation/pbd/errors.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+// A copy displaced at once could jump to another equilibrium; it moves there at this speed instead.
+constexpr double kDisplacementSpeed = 0.5;  // m/s
+constexpr double kRestUntilReady = 0.3;     // s
+
+// A copy pulled taut no longer tells how the slack object answers. Displacements end at this
+// fraction of the free length, and return to the request only below the smaller one.
+constexpr double kReach = 0.995;
+constexpr double kReachToReturn = 0.985;
+
+void requirePose(const Pose& pose) {
+  if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite() ||
+      std::abs(pose.orientation.norm() - 1.0) > 1e-6) {
+    throw std::invalid_argument("a held pose must be finite with a quaternion of norm 1");
+  }
+}
+
+Quaternion turned(const Quaternion& orientation, const Vector3& rotation) {
+  const double angle = rotation.norm();
+  if (angle == 0.0) {
+    return orientation;
+  }
+  return (Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) * orientation).normalized();
+}
+
+}  // namespace
+
+bool PerturbedCopy::ready() const { return resting >= kRestUntilReady; }
+
+void Body::requireParticle(int particle) const {
+  if (particle < 0 || particle >= particleCount()) {
+    throw std::out_of_range("particle " + std::to_string(particle) + ": there are particles 0 to " +
+                            std::to_string(particleCount() - 1));
+  }
+}
+
+void Body::hold(int particle, Hold type) {
+  requireParticle(particle);
+  hold(particle, type, particlePose(particle));
+}
+
+void Body::hold(int particle, Hold type, const Pose& pose) {
+  requireParticle(particle);
+  requirePose(pose);
+  for (const HeldPoint& held : holds_) {
+    if (held.particle == particle) {
+      throw std::invalid_argument("particle " + std::to_string(particle) + " is held already");
+    }
+  }
+  holds_.push_back({particle, type, pose, Twist()});
+  std::sort(holds_.begin(), holds_.end(),
+            [](const HeldPoint& a, const HeldPoint& b) { return a.particle < b.particle; });
+  holdsChanged();
+}
+
+void Body::release(int particle) {
+  const HeldPoint& released = findHeld(particle);
+  for (std::size_t i = copies_.size(); i-- > 0;) {
+    if (copies_[i].particle == particle) {
+      removeCopy(copies_[i].id);
+    }
+  }
+  holds_.erase(holds_.begin() + (&released - holds_.data()));
+  holdsChanged();
+}
+
+void Body::setTwist(int particle, const Twist& twist) {
+  if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
+    throw std::invalid_argument("the velocity of particle " + std::to_string(particle) + " must be finite");
+  }
+  findHeld(particle).twist = twist;
+}
+
+void Body::setPose(int particle, const Pose& pose) {
+  requirePose(pose);
+  findHeld(particle).pose = pose;
+}
+
+HeldPoint& Body::findHeld(int particle) { return const_cast<HeldPoint&>(held(particle)); }
+
+const HeldPoint& Body::held(int particle) const {
+  for (const HeldPoint& held : holds_) {
+    if (held.particle == particle) {
+      return held;
+    }
+  }
+  throw std::invalid_argument("particle " + std::to_string(particle) + " is not held");
+}
+
+int Body::addCopy(int particle, const Vector3& displacement) {
+  held(particle);
+  const double length = displacement.norm();
+  double longest = 0.0;
+  for (int other : {0, particleCount() - 1}) {
+    longest = std::max(longest, freeLength(particle, other));
+  }
+  if (!std::isfinite(length) || length == 0.0 || length > longest) {
+    throw std::invalid_argument("the displacement of a copy must be finite, not zero and at most " +
+                                std::to_string(longest) + " m long, not " + std::to_string(length) + " m");
+  }
+  PerturbedCopy copy{next_id_++, particle, displacement, displacement, Vector3::Zero()};
+  copies_.push_back(copy);
+  resizeCopies();
+  assignCopy(copyCount() - 1, 0);
+  return copy.id;
+}
+
+void Body::removeCopy(int id) {
+  const auto found =
+      std::find_if(copies_.begin(), copies_.end(), [id](const PerturbedCopy& copy) { return copy.id == id; });
+  if (found == copies_.end()) {
+    throw std::invalid_argument("there is no copy with id " + std::to_string(id));
+  }
+  for (int to = static_cast<int>(found - copies_.begin()) + 1; to + 1 < copyCount(); ++to) {
+    assignCopy(to, to + 1);
+  }
+  copies_.erase(found);
+  resizeCopies();
+}
+
+void Body::step(double time_step, int substeps) {
+  const double h = time_step / substeps;
+  retargetCopies();
+  beginStep(h);
+  for (int i = 0; i < substeps; ++i) {
+    advanceHolds(h);
+    advanceCopies(h);
+    substep();
+  }
+  ++steps_;
+  checkFinite();
+}
+
+bool Body::settle(const SettleOptions& options) {
+  for (HeldPoint& held : holds_) {
+    held.twist = Twist();
+  }
+  const int steps = static_cast<int>(std::ceil(options.time_limit / options.time_step));
+  for (int i = 0; i < steps; ++i) {
+    step(options.time_step, options.substeps);
+    const bool arrived =
+        std::all_of(copies_.begin(), copies_.end(), [](const PerturbedCopy& copy) { return copy.ready(); });
+    if (arrived && highestSpeed() < options.speed_tolerance) {
+      stop();
+      return true;
+    }
+  }
+  stop();
+  return false;
+}
+
+Vector3 Body::heldPosition(const HeldPoint& held, int copy) const {
+  if (copy > 0 && copies_[copy - 1].particle == held.particle) {
+    return held.pose.position + copies_[copy - 1].present;
+  }
+  return held.pose.position;
+}
+
+void Body::advanceHolds(double h) {
+  for (HeldPoint& held : holds_) {
+    held.pose.position += h * held.twist.linear;
+    held.pose.orientation = turned(held.pose.orientation, h * held.twist.angular);
+  }
+}
+
+bool Body::inReach(const PerturbedCopy& copy, const Vector3& displacement, double margin) const {
+  const Vector3 displaced = held(copy.particle).pose.position + displacement;
+  return std::all_of(holds_.begin(), holds_.end(), [&](const HeldPoint& other) {
+    return other.particle == copy.particle ||
+           (displaced - other.pose.position).norm() <= margin * freeLength(copy.particle, other.particle);
+  });
+}
+
+void Body::retargetCopies() {
+  for (std::size_t i = 0; i < copies_.size(); ++i) {
+    PerturbedCopy& copy = copies_[i];
+    if (copy.target != copy.requested && inReach(copy, copy.requested, kReachToReturn)) {
+      copy.target = copy.requested;
+    } else if (!inReach(copy, copy.target, kReach)) {
+      for (double factor : {1.0, -1.0, 0.5, -0.5, 0.25, -0.25}) {
+        if (inReach(copy, factor * copy.requested, kReach)) {
+          copy.target = factor * copy.requested;
+          break;
+        }
+      }
+    }
+    if (copy.present.dot(copy.target) < 0.0) {  // turned round: begin again from the object itself
+      copy.present.setZero();
+      copy.resting = 0.0;
+      assignCopy(static_cast<int>(i) + 1, 0);
+    }
+  }
+}
+
+void Body::advanceCopies(double h) {
+  for (PerturbedCopy& copy : copies_) {
+    const Vector3 remaining = copy.target - copy.present;
+    const double distance = remaining.norm();
+    if (distance == 0.0) {
+      copy.resting += h;
+      continue;
+    }
+    copy.resting = 0.0;
+    copy.present = distance > h * kDisplacementSpeed
+                       ? Vector3(copy.present + (h * kDisplacementSpeed / distance) * remaining)
+                       : copy.target;
+  }
+}
+
+void Body::checkFinite() const {
+  for (int copy = 0; copy < copyCount(); ++copy) {
+    const int particle = firstNonFinite(copy);
+    if (particle >= 0) {
+      throw NonFiniteState(steps_, copy, particle);
+    }
+  }
+}
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

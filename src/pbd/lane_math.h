@@ -1,0 +1,98 @@
+#pragma once
+
+// Small vector algebra on packs of SIMD lanes. A pack holds the same quantity of several copies
+// of a body. This header is compiled once per instruction set, each time in a namespace of its
+// own (DEFORMABLE_MANIPULATION_ISA), so that the linker never mixes code for different processors.
+
+#ifndef DEFORMABLE_MANIPULATION_ISA
+#define DEFORMABLE_MANIPULATION_ISA portable
+#define DEFORMABLE_MANIPULATION_PACK_WIDTH 2
+#endif
+
+#define DM_INLINE inline __attribute__((always_inline))
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace DEFORMABLE_MANIPULATION_ISA {
+
+constexpr int kPackWidth = DEFORMABLE_MANIPULATION_PACK_WIDTH;
+
+typedef double Pack __attribute__((vector_size(kPackWidth * sizeof(double)), may_alias));
+
+DM_INLINE Pack broadcast(double value) { return Pack{} + value; }
+
+DM_INLINE Pack load(const double* from) { return *reinterpret_cast<const Pack*>(from); }
+
+DM_INLINE void store(double* to, const Pack& value) { *reinterpret_cast<Pack*>(to) = value; }
+
+DM_INLINE Pack squareRoot(const Pack& value) {
+  Pack root;
+  for (int i = 0; i < kPackWidth; ++i) {
+    root[i] = __builtin_sqrt(value[i]);
+  }
+  return root;
+}
+
+//! +1 where the value is not negative, -1 elsewhere.
+DM_INLINE Pack signOf(const Pack& value) { return value >= Pack{} ? broadcast(1.0) : broadcast(-1.0); }
+
+struct Vec3 {
+  Pack x, y, z;
+};
+
+DM_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+DM_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DM_INLINE Vec3 operator*(const Pack& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+DM_INLINE Pack dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+DM_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+DM_INLINE Vec3 broadcast3(const double* from) { return {broadcast(from[0]), broadcast(from[1]), broadcast(from[2])}; }
+
+//! Quaternion, vector part first.
+struct Quat {
+  Vec3 v;
+  Pack w;
+};
+
+DM_INLINE Quat normalized(const Quat& q) {
+  const Pack scale = 1.0 / squareRoot(dot(q.v, q.v) + q.w * q.w);
+  return {scale * q.v, scale * q.w};
+}
+
+//! a times the conjugate of b: the rotation in the fixed frame that leads from b to a.
+DM_INLINE Quat rotationBetween(const Quat& b, const Quat& a) {
+  return {b.w * a.v - a.w * b.v - cross(a.v, b.v), a.w * b.w + dot(a.v, b.v)};
+}
+
+//! q turned by the small rotation vector r, to first order and renormalised.
+DM_INLINE Quat rotated(const Quat& q, const Vec3& r) {
+  const Vec3 half = broadcast(0.5) * r;
+  return normalized({q.v + q.w * half + cross(half, q.v), q.w - dot(half, q.v)});
+}
+
+//! The x axis of the frame q in the fixed frame: a segment's tangent.
+DM_INLINE Vec3 tangentOf(const Quat& q) {
+  const Pack two = broadcast(2.0);
+  return {broadcast(1.0) - two * (q.v.y * q.v.y + q.v.z * q.v.z), two * (q.v.x * q.v.y + q.w * q.v.z),
+          two * (q.v.x * q.v.z - q.w * q.v.y)};
+}
+
+// Arrays of quantities: [item][component][lane]; the stride between components is kLanes.
+DM_INLINE Vec3 load3(const double* from, int stride) {
+  return {load(from), load(from + stride), load(from + 2 * stride)};
+}
+DM_INLINE void store3(double* to, int stride, const Vec3& value) {
+  store(to, value.x);
+  store(to + stride, value.y);
+  store(to + 2 * stride, value.z);
+}
+DM_INLINE Quat load4(const double* from, int stride) { return {load3(from, stride), load(from + 3 * stride)}; }
+DM_INLINE void store4(double* to, int stride, const Quat& value) {
+  store3(to, stride, value.v);
+  store(to + 3 * stride, value.w);
+}
+
+}  // namespace DEFORMABLE_MANIPULATION_ISA
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,55 @@
+#include "reference_motion.h"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+void write(double* to, int i, const Vector3& value) { std::copy(value.data(), value.data() + 3, to + 3 * i); }
+
+}  // namespace
+
+void carriedMotion(const std::vector<HeldPoint>& holds, int n, double* velocity, double* angular_velocity) {
+  std::size_t next = 0;  // first hold at or after the particle
+  for (int i = 0; i < n; ++i) {
+    while (next < holds.size() && holds[next].particle < i) {
+      ++next;
+    }
+    const HeldPoint& a = holds[next > 0 ? next - 1 : 0];
+    const HeldPoint& b = holds[next < holds.size() ? next : holds.size() - 1];
+    const int gap = b.particle - a.particle;
+    const double t = gap > 0 ? static_cast<double>(i - a.particle) / gap : 0.0;
+    write(velocity, i, (1.0 - t) * a.twist.linear + t * b.twist.linear);
+    write(angular_velocity, i, (1.0 - t) * a.twist.angular + t * b.twist.angular);
+  }
+}
+
+void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia,
+                 double axial_inertia, double* velocity, double* angular_velocity) {
+  Vector3 centre = Vector3::Zero();
+  Vector3 drift = Vector3::Zero();
+  for (const SegmentMotion& segment : segments) {
+    centre += segment.position / segments.size();
+    drift += segment.velocity / segments.size();
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Vector3 angular_momentum = Vector3::Zero();
+  for (const SegmentMotion& segment : segments) {
+    const Vector3 arm = segment.position - centre;
+    const Eigen::Matrix3d own = transverse_inertia * Eigen::Matrix3d::Identity() +
+                                (axial_inertia - transverse_inertia) * segment.tangent * segment.tangent.transpose();
+    inertia += own + mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    angular_momentum += own * segment.angular_velocity + mass * arm.cross(segment.velocity - drift);
+  }
+  const Vector3 spin = inertia.ldlt().solve(angular_momentum);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    write(velocity, static_cast<int>(i), drift + spin.cross(segments[i].position - centre));
+    write(angular_velocity, static_cast<int>(i), spin);
+  }
+}
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/pbd/body.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+// Damping acts on the motion relative to a reference, so that an object carried along keeps the
+// shape it has at rest. Both functions write [n x 3] m/s and [n x 3] rad/s.
+
+//! Motion of the held points, blended linearly along a chain of n particles between neighbouring holds.
+//! @pre holds is sorted by particle and not empty
+void carriedMotion(const std::vector<HeldPoint>& holds, int n, double* velocity, double* angular_velocity);
+
+//! A rod's segment as a rigid body.
+struct SegmentMotion {
+  Vector3 position;          // m
+  Vector3 tangent;
+  Vector3 velocity;          // m/s
+  Vector3 angular_velocity;  // rad/s
+};
+
+//! The rigid motion with the same momentum and angular momentum as a free chain of equal segments.
+void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia,
+                 double axial_inertia, double* velocity, double* angular_velocity);
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,326 @@
+#include "deformable_manipulation/pbd/rod.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reference_motion.h"
+#include "rod_kernel.h"
+#include "rod_layout.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+// "Zero" stretch is this fraction of the joint's own response to a force. It keeps the chain's
+// matrix regular where a straight piece is taut between two holds, and stays below 1 nm in use.
+constexpr double kFloorCompliance = 1e-8;
+
+void copyLane(AlignedArray& to_array, int to, const AlignedArray& from_array, int from) {
+  for (std::size_t i = 0; i < to_array.size(); i += kLanes) {
+    to_array[i + to] = from_array[i + from];
+  }
+}
+
+Vector3 read3(const AlignedArray& array, int item, int lane) {
+  const double* at = array.data() + 3 * kLanes * item + lane;
+  return {at[0], at[kLanes], at[2 * kLanes]};
+}
+
+Quaternion read4(const AlignedArray& array, int item, int lane) {
+  const double* at = array.data() + 4 * kLanes * item + lane;
+  return {at[3 * kLanes], at[0], at[kLanes], at[2 * kLanes]};
+}
+
+void write3(AlignedArray& array, int item, int lane, const Vector3& value) {
+  for (int axis = 0; axis < 3; ++axis) {
+    array[(3 * item + axis) * kLanes + lane] = value[axis];
+  }
+}
+
+void write4(AlignedArray& array, int item, int lane, const Quaternion& value) {
+  for (int i = 0; i < 4; ++i) {
+    array[(4 * item + i) * kLanes + lane] = value.coeffs()[i];
+  }
+}
+
+void unpack(const AlignedArray& array, int lane, double* to) {
+  for (std::size_t i = lane, end = array.size(); i < end; i += kLanes) {
+    *to++ = array[i];
+  }
+}
+
+Vector3 tangent(const Quaternion& orientation) { return orientation * Vector3::UnitX(); }
+
+}  // namespace
+
+struct Rod::State {
+  std::vector<RodLanes> groups;
+  std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
+  std::vector<unsigned char> joint_active;
+  std::vector<double> reference_velocity, reference_angular_velocity;
+  std::vector<HeldSegment> held;
+  AlignedArray workspace;
+  RodSubstepInput input;
+
+  //! Points the kernel's input at this state's arrays.
+  void connect() {
+    input.inverse_mass = inverse_mass.data();
+    input.inverse_transverse = inverse_transverse.data();
+    input.inverse_axial = inverse_axial.data();
+    input.joint_active = joint_active.data();
+    input.reference_velocity = reference_velocity.data();
+    input.reference_angular_velocity = reference_angular_velocity.data();
+    input.held = held.data();
+    input.held_count = static_cast<int>(held.size());
+    input.workspace = workspace.data();
+  }
+};
+
+Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new State) {
+  parameters_.check();
+  const int n = parameters_.segments;
+  State& s = *state_;
+  s.groups.emplace_back(n);
+  s.reference_velocity.resize(3 * n);
+  s.reference_angular_velocity.resize(3 * n);
+  s.input = RodSubstepInput{};
+  if (parameters_.solver == RodSolver::DIRECT) {
+    s.workspace.resize(rodWorkspaceSize(n));
+  }
+  holdsChanged();
+  layOut();
+}
+
+Rod::Rod(const Rod& other) : Body(other), parameters_(other.parameters_), state_(new State(*other.state_)) {}
+
+Rod::~Rod() = default;
+
+std::unique_ptr<Body> Rod::clone() const { return std::unique_ptr<Body>(new Rod(*this)); }
+
+void Rod::setMaterial(double young_modulus, double torsion_modulus, double damping) {
+  RodParameters changed = parameters_;
+  changed.young_modulus = young_modulus;
+  changed.torsion_modulus = torsion_modulus;
+  changed.damping = damping;
+  changed.check();
+  parameters_ = changed;
+}
+
+double Rod::freeLength(int particle, int other) const {
+  requireParticle(particle);
+  requireParticle(other);
+  return std::abs(particle - other) * parameters_.segmentLength();
+}
+
+Pose Rod::particlePose(int particle) const {
+  return {read3(state_->groups[0].position, particle, 0), read4(state_->groups[0].orientation, particle, 0)};
+}
+
+void Rod::holdsChanged() {
+  State& s = *state_;
+  const int n = parameters_.segments;
+  s.inverse_mass.assign(n, 1.0 / parameters_.segmentMass());
+  s.inverse_transverse.assign(n, 1.0 / parameters_.transverseInertia());
+  s.inverse_axial.assign(n, 1.0 / parameters_.axialInertia());
+  s.joint_active.assign(n - 1, 1);
+  s.held.resize(holds().size());
+  for (const HeldPoint& held : holds()) {
+    s.inverse_mass[held.particle] = 0.0;
+    if (held.type == Hold::CLAMPED) {
+      s.inverse_transverse[held.particle] = 0.0;
+      s.inverse_axial[held.particle] = 0.0;
+    }
+  }
+  for (int j = 0; j + 1 < n; ++j) {
+    s.joint_active[j] = s.inverse_mass[j] > 0.0 || s.inverse_mass[j + 1] > 0.0;
+  }
+}
+
+void Rod::resizeCopies() {
+  const std::size_t groups = (copyCount() + kLanes - 1) / kLanes;
+  while (state_->groups.size() > groups) {
+    state_->groups.pop_back();
+  }
+  while (state_->groups.size() < groups) {
+    state_->groups.push_back(state_->groups.front());
+  }
+}
+
+void Rod::assignCopy(int to, int from) {
+  RodLanes& target = state_->groups[to / kLanes];
+  const RodLanes& source = state_->groups[from / kLanes];
+  for (AlignedArray RodLanes::*array :
+       {&RodLanes::position, &RodLanes::previous_position, &RodLanes::velocity, &RodLanes::orientation,
+        &RodLanes::previous_orientation, &RodLanes::angular_velocity, &RodLanes::multiplier}) {
+    copyLane(target.*array, to % kLanes, source.*array, from % kLanes);
+  }
+}
+
+void Rod::layOut() {
+  const std::vector<Pose> segments = layOutRod(parameters_, holds());
+  for (std::size_t copy = 0; copy < state_->groups.size() * kLanes; ++copy) {
+    placeCopy(static_cast<int>(copy), segments);
+  }
+  stop();
+}
+
+void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
+  RodLanes& lanes = state_->groups[copy / kLanes];
+  const int lane = copy % kLanes;
+  for (int i = 0; i < parameters_.segments; ++i) {
+    write3(lanes.position, i, lane, segments[i].position);
+    write3(lanes.previous_position, i, lane, segments[i].position);
+    write4(lanes.orientation, i, lane, segments[i].orientation);
+    write4(lanes.previous_orientation, i, lane, segments[i].orientation);
+  }
+}
+
+void Rod::stop() {
+  for (RodLanes& lanes : state_->groups) {
+    std::fill(lanes.velocity.begin(), lanes.velocity.end(), 0.0);
+    std::fill(lanes.angular_velocity.begin(), lanes.angular_velocity.end(), 0.0);
+  }
+}
+
+void Rod::beginStep(double h) {
+  const RodParameters& p = parameters_;
+  RodSubstepInput& in = state_->input;
+  const double h2 = h * h;
+  const double l = p.segmentLength();
+  in.segments = p.segments;
+  in.h = h;
+  in.segment_length = l;
+  std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
+  in.velocity_decay = std::exp(-p.damping * h);
+  in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
+  in.bending_compliance = 1.0 / (l * p.bendingStiffness() * h2);
+  in.torsion_compliance = 1.0 / (l * p.torsionStiffness() * h2);
+  in.axial_compliance = p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : 0.0;
+  in.floor_compliance = kFloorCompliance / p.segmentMass();
+  updateReferenceMotion();
+  state_->connect();
+}
+
+void Rod::updateReferenceMotion() {
+  State& s = *state_;
+  const RodParameters& p = parameters_;
+  if (!holds().empty()) {
+    carriedMotion(holds(), p.segments, s.reference_velocity.data(), s.reference_angular_velocity.data());
+    return;
+  }
+  std::vector<SegmentMotion> segments(p.segments);
+  for (int i = 0; i < p.segments; ++i) {
+    const RodLanes& lanes = s.groups[0];
+    segments[i] = {read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)), read3(lanes.velocity, i, 0),
+                   read3(lanes.angular_velocity, i, 0)};
+  }
+  rigidMotion(segments, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
+              s.reference_angular_velocity.data());
+}
+
+void Rod::substep() {
+  State& s = *state_;
+  const RodKernel& kernel = selectedRodKernel();
+  const RodSubstep substep = parameters_.solver == RodSolver::DIRECT ? kernel.direct : kernel.gauss_seidel;
+  for (std::size_t group = 0; group < s.groups.size(); ++group) {
+    for (std::size_t i = 0; i < s.held.size(); ++i) {
+      const HeldPoint& held = holds()[i];
+      HeldSegment& to = s.held[i];
+      to.segment = held.particle;
+      to.clamped = held.type == Hold::CLAMPED;
+      std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to.orientation);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const int copy = static_cast<int>(group) * kLanes + lane;
+        const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
+        for (int axis = 0; axis < 3; ++axis) {
+          to.position[axis * kLanes + lane] = position[axis];
+        }
+      }
+    }
+    substep(s.input, s.groups[group]);
+  }
+}
+
+Wrench Rod::wrench(int particle) const {
+  held(particle);
+  const RodLanes& lanes = state_->groups[0];
+  const double per_h2 = state_->input.h > 0.0 ? 1.0 / (state_->input.h * state_->input.h) : 0.0;
+  const double half = 0.5 * parameters_.segmentLength();
+  const Vector3 d = tangent(read4(lanes.orientation, particle, 0));
+  Wrench wrench;
+  wrench.force = parameters_.segmentMass() * parameters_.gravity;
+  for (int side : {-1, 0}) {  // the joints before and after the segment
+    const int joint = particle + side;
+    if (joint < 0 || joint + 1 >= parameters_.segments) {
+      continue;
+    }
+    const Vector3 force = per_h2 * read3(lanes.multiplier, 2 * joint, 0);
+    const Vector3 moment = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
+    const Quaternion dq = read4(lanes.orientation, joint + 1, 0) * read4(lanes.orientation, joint, 0).conjugate();
+    const double sign = dq.w() < 0.0 ? -1.0 : 1.0;
+    const Vector3 bent = sign / parameters_.segmentLength() * (dq.w() * moment + dq.vec().cross(moment));
+    wrench.force += (side == 0 ? 1.0 : -1.0) * force;
+    wrench.torque += half * d.cross(force) + (side == 0 ? -1.0 : 1.0) * bent;
+  }
+  return wrench;
+}
+
+void Rod::points(double* to) const {
+  const int n = parameters_.segments;
+  const double half = 0.5 * parameters_.segmentLength();
+  for (int copy = 0; copy < copyCount(); ++copy) {
+    const RodLanes& lanes = state_->groups[copy / kLanes];
+    const int lane = copy % kLanes;
+    Vector3 before = Vector3::Zero();
+    for (int i = 0; i <= n; ++i, to += 3) {
+      Vector3 point = before;
+      if (i < n) {
+        const Vector3 x = read3(lanes.position, i, lane);
+        const Vector3 reach = half * tangent(read4(lanes.orientation, i, lane));
+        point = i > 0 ? Vector3(0.5 * (before + x - reach)) : Vector3(x - reach);
+        before = x + reach;
+      }
+      std::copy(point.data(), point.data() + 3, to);
+    }
+  }
+}
+
+void Rod::positions(int copy, double* to) const {
+  unpack(state_->groups[copy / kLanes].position, copy % kLanes, to);
+}
+
+void Rod::velocities(int copy, double* to) const {
+  unpack(state_->groups[copy / kLanes].velocity, copy % kLanes, to);
+}
+
+bool Rod::orientations(int copy, double* to) const {
+  unpack(state_->groups[copy / kLanes].orientation, copy % kLanes, to);
+  return true;
+}
+
+int Rod::firstNonFinite(int copy) const {
+  const RodLanes& lanes = state_->groups[copy / kLanes];
+  const int lane = copy % kLanes;
+  for (int i = 0; i < parameters_.segments; ++i) {
+    const double sum = read3(lanes.position, i, lane).sum() + read3(lanes.velocity, i, lane).sum() +
+                       read4(lanes.orientation, i, lane).coeffs().sum() + read3(lanes.angular_velocity, i, lane).sum();
+    if (!std::isfinite(sum)) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+double Rod::highestSpeed() const {
+  double highest = 0.0;
+  for (int copy = 0; copy < copyCount(); ++copy) {
+    for (int i = 0; i < parameters_.segments; ++i) {
+      highest = std::max(highest, read3(state_->groups[copy / kLanes].velocity, i, copy % kLanes).norm());
+    }
+  }
+  return highest;
+}
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

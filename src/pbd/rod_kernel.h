@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "aligned_array.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! Copies that advance together: one SIMD lane each.
+constexpr int kLanes = 8;
+
+//! State of eight copies of a rod. Layout: [segment or joint][component][lane].
+struct RodLanes {
+  explicit RodLanes(int segments);
+
+  AlignedArray position;              // [N x 3] m, segment centres
+  AlignedArray previous_position;     // [N x 3]
+  AlignedArray velocity;              // [N x 3] m/s
+  AlignedArray orientation;           // [N x 4] quaternion x y z w
+  AlignedArray previous_orientation;  // [N x 4]
+  AlignedArray angular_velocity;      // [N x 3] rad/s, fixed frame
+  AlignedArray multiplier;            // [(N - 1) x 6] joint force times h^2 [N s^2], joint torque times h^2
+};
+
+//! A held segment during one substep.
+struct HeldSegment {
+  alignas(64) double position[3 * kLanes];  // m, at the end of the substep, one per lane
+  int segment;
+  bool clamped;
+  double orientation[4];        // at the end of the substep, where clamped
+};
+
+//! What a substep needs besides the state.
+struct RodSubstepInput {
+  int segments;
+  double h;                 // s
+  double segment_length;    // m
+  double gravity[3];        // m/s^2
+  double velocity_decay;    // factor on motion relative to the reference in a substep
+  double inertia_ratio;     // (axial - transverse) / transverse moment of inertia
+  double bending_compliance;   // 1 / (l E I h^2)
+  double torsion_compliance;   // 1 / (l G J h^2)
+  double axial_compliance;     // l / (E A h^2)
+  double floor_compliance;     // keeps the joint's matrix regular when both of its segments are held
+  const double* inverse_mass;        // [N] 1/kg, zero where held
+  const double* inverse_transverse;  // [N] 1/(kg m^2), zero where clamped
+  const double* inverse_axial;       // [N] 1/(kg m^2), zero where clamped
+  const unsigned char* joint_active;  // [N - 1] false between two held segments
+  const double* reference_velocity;          // [N x 3] m/s, motion of the held points carried along the rod
+  const double* reference_angular_velocity;  // [N x 3] rad/s
+  const HeldSegment* held;
+  int held_count;
+  double* workspace;        // direct solver: rodWorkspaceSize() numbers, aligned
+};
+
+//! Numbers in the direct solver's workspace: a 6 x 6 factor, a 6 x 6 coupling and a right-hand side per joint.
+constexpr std::size_t rodWorkspaceSize(int segments) {
+  return static_cast<std::size_t>(segments - 1) * (21 + 36 + 6) * kLanes;
+}
+
+//! A substep of Algorithm 1 for eight copies: predict, solve the joints, update velocities.
+using RodSubstep = void (*)(const RodSubstepInput&, RodLanes&);
+
+//! The substeps compiled for one instruction set.
+struct RodKernel {
+  const char* instruction_set;
+  RodSubstep gauss_seidel;
+  RodSubstep direct;
+};
+
+namespace portable {
+RodKernel rodKernel();
+}
+namespace avx2 {
+RodKernel rodKernel();
+}
+namespace avx512 {
+RodKernel rodKernel();
+}
+
+//! The fastest kernel that this processor runs. The environment variable
+//! DEFORMABLE_MANIPULATION_INSTRUCTION_SET (portable, avx2, avx512) narrows the choice.
+const RodKernel& selectedRodKernel();
+
+//! The kernels that this processor runs, slowest first.
+std::vector<RodKernel> availableRodKernels();
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

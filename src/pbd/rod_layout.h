@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/pbd/body.h"
+#include "deformable_manipulation/pbd/rod_parameters.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! A first guess of a held rod's shape, to be settled: catenaries between the held segments and
+//! straight pieces beyond the first and the last of them.
+//! @return the poses of the segments, the held ones at their own
+std::vector<Pose> layOutRod(const RodParameters& rod, const std::vector<HeldPoint>& holds);
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,46 @@
+#include "deformable_manipulation/pbd/rod_parameters.h"
+
+#include <cmath>
+
+#include "deformable_manipulation/pbd/errors.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+double area(double radius) { return M_PI * radius * radius; }
+
+}  // namespace
+
+void RodParameters::check() const {
+  ParameterCheck check;
+  check.positive("length", length, "[m]");
+  check.positive("radius", radius, "[m]");
+  check.positive("density", density, "[kg/m^3]");
+  check.require(segments >= 2 && segments <= 100000, "segments", segments, "a whole number from 2 to 100000");
+  check.positive("young_modulus", young_modulus, "[Pa]");
+  check.positive("torsion_modulus", torsion_modulus, "[Pa]");
+  check.notNegative("damping", damping, "[1/s]");
+  check.require(gravity.allFinite(), "gravity", gravity.norm(), "three finite numbers [m/s^2]");
+  check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");
+  check.require(std::abs(pose.orientation.norm() - 1.0) < 1e-6, "pose.orientation", pose.orientation.norm(),
+                "a quaternion of norm 1");
+  check.throwIfAny();
+}
+
+double RodParameters::segmentMass() const { return density * area(radius) * segmentLength(); }
+
+double RodParameters::transverseInertia() const {
+  return segmentMass() * (3.0 * radius * radius + segmentLength() * segmentLength()) / 12.0;
+}
+
+double RodParameters::axialInertia() const { return 0.5 * segmentMass() * radius * radius; }
+
+double RodParameters::bendingStiffness() const { return young_modulus * area(radius) * radius * radius / 4.0; }
+
+double RodParameters::torsionStiffness() const { return torsion_modulus * area(radius) * radius * radius / 2.0; }
+
+double RodParameters::axialStiffness() const { return young_modulus * area(radius); }
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

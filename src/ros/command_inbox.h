@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/time.h>
+
+#include "deformable_manipulation/pbd/types.h"
+
+namespace deformable_manipulation {
+
+//! The newest acceptable velocity command of one agent.
+//!
+//! A command answers the state whose stamp it carries. One that is not finite, in another frame,
+//! or does not answer a state newer than the last accepted one is dropped.
+class CommandInbox {
+ public:
+  //! @param frame  fixed frame that commands must be in
+  explicit CommandInbox(std::string frame) : frame_(std::move(frame)) {}
+
+  //! @param newest_state  stamp of the newest state published
+  //! @return why the command is dropped; empty if it is accepted
+  std::string receive(const geometry_msgs::TwistStamped& command, const ros::Time& newest_state);
+
+  //! Whether the newest accepted command answers this state.
+  bool answers(const ros::Time& state) const { return received_ && stamp_ == state; }
+
+  //! The newest command, or rest if there is none or it answers a state older than the timeout [s].
+  pbd::Twist command(const ros::Time& now, double timeout) const;
+
+  //! Whether command() is at rest because commands stopped coming.
+  bool timedOut(const ros::Time& now, double timeout) const;
+
+  //! The newest command whatever its age, or rest if there is none.
+  pbd::Twist command() const { return received_ ? twist_ : pbd::Twist(); }
+
+  //! Forgets all commands.
+  void reset() { received_ = false; }
+
+ private:
+  std::string frame_;
+  bool received_ = false;
+  ros::Time stamp_;
+  pbd::Twist twist_;
+};
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "deformable_manipulation/ObjectState.h"
+
+namespace deformable_manipulation {
+
+//! Draws a state for RViz: the object, its copies in one colour per displaced axis (x red, y green,
+//! z blue), and the agents with their names.
+class ObjectMarkers {
+ public:
+  //! @param diameter  of the rod [m]
+  explicit ObjectMarkers(double diameter);
+
+  //! Copies that are gone since the last call are deleted.
+  visualization_msgs::MarkerArray draw(const ObjectState& state);
+
+ private:
+  double width_;
+  std::size_t copies_drawn_ = 0;
+};
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <XmlRpcValue.h>
+
+#include "deformable_manipulation/pbd/rod_parameters.h"
+#include "deformable_manipulation/pbd/simulation.h"
+
+namespace deformable_manipulation {
+
+//! What the simulator node takes from a checked scenario.
+struct SimulatorScenario {
+  std::string name;
+  std::string frame;
+  pbd::RodParameters rod;
+  std::vector<pbd::Agent> agents;
+  std::vector<bool> is_assistant;  // one per agent
+  std::vector<pbd::Perturbation> perturbations;
+  pbd::Clock clock;
+  double duration = 0.0;         // s
+  double command_timeout = 0.0;  // s
+};
+
+//! Reads the parameter `scenario` as check_scenario --resolved writes it.
+//! @throw pbd::ParameterError with every key that is missing or of the wrong type
+SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& scenario);
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/time.h>
+
+#include "deformable_manipulation/ObjectState.h"
+#include "deformable_manipulation/pbd/simulation.h"
+
+namespace deformable_manipulation {
+
+//! Writes the present state of all copies into a message; its arrays are used again.
+void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const std::string& frame,
+               ObjectState& message);
+
+geometry_msgs::PoseStamped toPose(const pbd::Pose& pose, const ros::Time& stamp, const std::string& frame);
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,187 @@
+// Holding, carrying, letting go; energy.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "deformable_manipulation/pbd/errors.h"
+#include "rod_fixture.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+TEST(Holds, followTheirPrescribedMotion) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  rod->setTwist(27, {Vector3(0.02, -0.1, 0.05), Vector3(0.3, 0.0, 0.0)});
+  for (int i = 0; i < 100; ++i) {
+    rod->step(0.01, 2);
+  }
+  EXPECT_LT((positions(*rod)[27] - Vector3(0.02, 1.4, 0.05)).norm(), 1e-12);
+  EXPECT_LT((velocities(*rod)[27] - Vector3(0.02, -0.1, 0.05)).norm(), 1e-9);
+  EXPECT_LT(positions(*rod)[0].norm(), 1e-12);
+  std::vector<double> q(4 * 28);
+  rod->orientations(0, q.data());
+  const Quaternion expected = Quaternion(Eigen::AngleAxisd(0.3, Vector3::UnitX())) * rope().pose.orientation;
+  EXPECT_LT(Eigen::Map<Eigen::Vector4d>(&q[4 * 27]).cwiseAbs().isApprox(expected.coeffs().cwiseAbs(), 1e-9) ? 0 : 1, 1);
+}
+
+TEST(Holds, leaveThePinnedOrientationFree) {
+  auto clamped = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  auto pinned = hangingRope(rope(), 1.5, Hold::PINNED);
+  clamped->settle(SettleOptions());
+  pinned->settle(SettleOptions());
+  EXPECT_LT(clamped->wrench(27).force.z(), 0.0);
+  EXPECT_GT(clamped->wrench(27).torque.norm(), 1e-2);
+  EXPECT_LT(pinned->wrench(27).torque.norm(), 1e-3);  // the overhanging half segment alone
+}
+
+TEST(Holds, includeAnyNumberOfInteriorSegments) {
+  Rod rod(rope(45));
+  const double l = rod.parameters().segmentLength();
+  for (int particle : {0, 21, 22, 44}) {
+    rod.hold(particle, particle == 44 ? Hold::PINNED : Hold::CLAMPED,
+             gripAt(rod.parameters(), Vector3(0.0, 0.8 * l * particle, 0.0)));
+  }
+  rod.layOut();
+  ASSERT_TRUE(rod.settle(SettleOptions()));
+  rod.step(0.01, 2);
+  double carried = 0.0;
+  for (const HeldPoint& held : rod.holds()) {
+    carried += rod.wrench(held.particle).force.z();
+  }
+  EXPECT_NEAR(carried, -9.81 * rod.mass(), 1e-3 * 9.81 * rod.mass());
+}
+
+TEST(Holds, canBeTakenAndReleasedWhileRunning) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  rod->settle(SettleOptions());
+  const Vector3 before = positions(*rod)[13];
+  rod->hold(13, Hold::PINNED);
+  rod->release(27);
+  for (int i = 0; i < 300; ++i) {
+    rod->step(0.01, 2);
+  }
+  EXPECT_LT((positions(*rod)[13] - before).norm(), 1e-12);
+  EXPECT_LT(positions(*rod)[27].z(), before.z());  // the free end has fallen
+  rod->release(13);
+  rod->release(0);
+  const double height = positions(*rod)[13].z();
+  for (int i = 0; i < 100; ++i) {
+    rod->step(0.01, 2);
+  }
+  EXPECT_NEAR(positions(*rod)[13].z() - height, -0.5 * 9.81, 0.5);  // falls freely, damped in itself only
+}
+
+TEST(Holds, refuseWhatCannotBe) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  EXPECT_THROW(rod->hold(28, Hold::PINNED), std::out_of_range);
+  EXPECT_THROW(rod->hold(-1, Hold::PINNED), std::out_of_range);
+  EXPECT_THROW(rod->hold(0, Hold::PINNED), std::invalid_argument);
+  EXPECT_THROW(rod->release(5), std::invalid_argument);
+  EXPECT_THROW(rod->setTwist(5, Twist()), std::invalid_argument);
+  EXPECT_THROW(rod->setTwist(0, {Vector3::Constant(NAN), Vector3::Zero()}), std::invalid_argument);
+}
+
+TEST(Damping, leavesACarriedRopeItsShape) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  rod->settle(SettleOptions());
+  const std::vector<Vector3> before = positions(*rod);
+  const Vector3 velocity(0.0, 0.1, 0.0);
+  for (int particle : {0, 27}) {
+    rod->setTwist(particle, {velocity, Vector3::Zero()});
+  }
+  for (int i = 0; i < 1000; ++i) {
+    rod->step(0.01, 2);
+  }
+  const std::vector<Vector3> after = positions(*rod);
+  for (int i = 0; i < 28; ++i) {
+    EXPECT_LT((after[i] - before[i] - 10.0 * velocity).norm(), 1e-3) << "segment " << i;
+  }
+}
+
+double energy(const Rod& rod) {
+  const RodParameters& p = rod.parameters();
+  const std::vector<Vector3> x = positions(rod);
+  const std::vector<Vector3> v = velocities(rod);
+  std::vector<double> q(4 * p.segments);
+  rod.orientations(0, q.data());
+  double sum = 0.0;
+  for (int i = 0; i < p.segments; ++i) {
+    sum += p.segmentMass() * (0.5 * v[i].squaredNorm() - p.gravity.dot(x[i]));
+    if (i > 0) {
+      const Quaternion a(Eigen::Map<const Eigen::Vector4d>(&q[4 * (i - 1)]));
+      const Quaternion b(Eigen::Map<const Eigen::Vector4d>(&q[4 * i]));
+      const double curvature = 2.0 / p.segmentLength() * (b * a.conjugate()).vec().norm();
+      sum += 0.5 * p.segmentLength() * p.bendingStiffness() * curvature * curvature;
+    }
+  }
+  return sum;
+}
+
+class Energy : public testing::TestWithParam<RodSolver> {};
+
+TEST_P(Energy, doesNotGrowWithoutDamping) {
+  RodParameters p = rope();
+  p.damping = 0.0;
+  p.solver = GetParam();
+  Rod rod(p);
+  rod.hold(0, Hold::PINNED);  // swings down from level
+  const double start = energy(rod);
+  const double scale = rod.mass() * 9.81 * p.length;
+  for (int i = 0; i < 500; ++i) {
+    rod.step(0.01, 10);
+    ASSERT_LT(energy(rod), start + 1e-3 * scale) << "step " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSolvers, Energy, testing::Values(RodSolver::DIRECT, RodSolver::GAUSS_SEIDEL),
+                         [](const testing::TestParamInfo<RodSolver>& info) {
+                           return info.param == RodSolver::DIRECT ? "direct" : "gaussSeidel";
+                         });
+
+TEST(FreeRod, keepsItsMomentum) {
+  RodParameters p = rope();
+  p.gravity.setZero();
+  p.damping = 5.0;
+  Rod rod(p);
+  rod.hold(5, Hold::CLAMPED);
+  rod.setTwist(5, {Vector3(0.3, 0.0, 0.2), Vector3(0.0, 0.5, 1.0)});
+  for (int i = 0; i < 50; ++i) {
+    rod.step(0.01, 5);
+  }
+  rod.release(5);
+  const auto momentum = [&] {
+    Vector3 linear = Vector3::Zero();
+    for (const Vector3& v : velocities(rod)) {
+      linear += p.segmentMass() * v;
+    }
+    return linear;
+  };
+  const Vector3 before = momentum();
+  for (int i = 0; i < 200; ++i) {
+    rod.step(0.01, 5);
+  }
+  EXPECT_LT((momentum() - before).norm(), 1e-9 * before.norm());
+}
+
+TEST(State, thatIsNotFiniteIsReported) {
+  RodParameters p = rope();
+  p.gravity = Vector3(0.0, 0.0, -1e300);
+  Rod rod(p);
+  rod.hold(0, Hold::CLAMPED);
+  try {
+    for (int i = 0; i < 1000; ++i) {
+      rod.step(10.0, 1);
+    }
+    FAIL() << "no exception";
+  } catch (const NonFiniteState& error) {
+    EXPECT_EQ(error.copy, 0);
+    EXPECT_GE(error.particle, 0);
+    EXPECT_GE(error.step, 1);
+  }
+}
+
+}  // namespace
+}  // namespace pbd
+}  // namespace deformable_manipulation
