@@ -1,0 +1,114 @@
+"""The command ``check_scenario``: is a scenario file correct, and what does it hold."""
+
+import argparse
+import sys
+from itertools import combinations
+from typing import Iterator, Optional, Sequence, Tuple
+
+from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.scenario.limits import pair_limits
+from deformable_manipulation.scenario.loader import load_scenario
+from deformable_manipulation.scenario.mapping import scenario_to_yaml
+from deformable_manipulation.scenario.spec import Scenario
+
+_EXAMPLES = """\
+examples:
+  check_scenario rope_one_assistant             a scenario of this package, by its name
+  check_scenario my_scenario.yaml               a file
+  check_scenario my_scenario.yaml --set controller.gain=2 --set leader.waypoints.1.time=12
+  check_scenario --resolved my_scenario.yaml    with every default filled in and file read
+
+exit status: 0 correct, 1 mistakes (listed on stderr), 2 wrong usage
+"""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit status."""
+    arguments = _parser().parse_args(argv)
+    try:
+        scenario = load_scenario(arguments.scenario, arguments.set)
+    except ScenarioError as error:
+        print(error, file=sys.stderr)
+        return 1
+    if arguments.resolved:
+        sys.stdout.write(scenario_to_yaml(scenario))
+    else:
+        print("{}: correct".format(arguments.scenario))
+        for line in summary(scenario):
+            print("  {}".format(line))
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="check_scenario",
+        description="Check a scenario file and report every mistake in it at once.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "scenario", metavar="FILE", help="scenario file, or the name of one in config/scenarios"
+    )
+    parser.add_argument(
+        "--resolved",
+        action="store_true",
+        help="print the scenario as YAML, with everything filled in, and nothing else",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY.PATH=VALUE",
+        type=override,
+        action="append",
+        default=[],
+        help="replace a value of the file; list items by index; may be given several times",
+    )
+    return parser
+
+
+def override(text: str) -> Tuple[str, str]:
+    """Split ``key.path=value``; raises argparse.ArgumentTypeError where it is not of that form."""
+    key, sign, value = text.partition("=")
+    if not key or not sign:
+        raise argparse.ArgumentTypeError(
+            "'{}' is not of the form key.path=value, as in controller.gain=2".format(text)
+        )
+    return key.strip(), value
+
+
+def summary(scenario: Scenario) -> Iterator[str]:
+    """Lines that tell what a scenario holds."""
+    rod = scenario.object
+    yield "object: {} of {:g} m, radius {:g} m, {} segments".format(
+        rod.type, rod.length, rod.radius, rod.segments
+    )
+    for agent in scenario.agents:
+        yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
+            agent.name,
+            agent.role,
+            agent.particle,
+            agent.hold,
+            ", ".join("{:.4g}".format(c) for c in agent.start),
+        )
+    for i, j in combinations(range(len(scenario.agents)), 2):
+        limits = pair_limits(scenario, i, j)
+        yield "distance between {} and {}: {:.4g} to {:.4g} m".format(
+            scenario.agents[i].name,
+            scenario.agents[j].name,
+            limits.min_distance,
+            limits.max_distance,
+        )
+    for obstacle in scenario.obstacles:
+        yield "obstacle {}: polygon of {} points, plane {}".format(
+            obstacle.name, len(obstacle.points), obstacle.plane
+        )
+    yield "distance to keep from obstacles: {:g} m".format(scenario.controller.collision.offset)
+    yield "leader's path: {} waypoints, {:g} s".format(
+        len(scenario.leader.waypoints), scenario.leader.waypoints[-1].time
+    )
+    yield "duration: {:g} s, {} cycles at {:g} Hz".format(
+        scenario.simulation.duration, scenario.cycles, scenario.controller.rate
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

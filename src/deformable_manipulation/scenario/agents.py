@@ -1,0 +1,114 @@
+"""The ``agents`` section: who holds which particle, in which role, from where."""
+
+import re
+from functools import partial
+from typing import Any, Dict, Optional, Tuple
+
+from deformable_manipulation.scenario.errors import key_text, show
+from deformable_manipulation.scenario.objects import particle_position
+from deformable_manipulation.scenario.readers import (
+    Choice,
+    Integer,
+    Node,
+    Section,
+    UnitQuaternion,
+    Unreadable,
+    position,
+    read_all,
+)
+from deformable_manipulation.scenario.spec import ASSISTANT, LEADER, AgentSpec
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+AGENT = Section(
+    AgentSpec,
+    {
+        "particle": Integer(0, 2**31 - 1),
+        "role": Choice(LEADER, ASSISTANT),
+        "hold": Choice("clamped", "pinned"),
+        "start": position(),
+        "orientation": UnitQuaternion(),
+    },
+    defaults={"start": None, "orientation": None},
+)
+
+Draft = Dict[str, Any]  # attributes of an AgentSpec that could be read; None: of the object
+
+
+def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
+    """Read and check the ``agents`` section.
+
+    :param spec: the object, or None where it could not be read; then what depends on it is not
+        checked and Unreadable is raised.
+    """
+    if not isinstance(node.value, dict) or not node.value:
+        node.fail("must be a section with one section per agent, by name")
+    drafts = {key_text(name): _read_draft(node, name) for name in node.value}
+    _check_roles(node, drafts)
+    _check_particles(node, drafts, spec)
+    if spec is None:
+        raise Unreadable
+    return tuple(
+        read_all(partial(_complete, name, draft, spec) for name, draft in drafts.items())
+    )
+
+
+def _read_draft(node: Node, name) -> Draft:
+    agent = node.child(name, node.value[name])
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        agent.report.add(
+            agent.path,
+            "is no name for an agent; use letters, digits and _, beginning with a letter",
+        )
+    try:
+        return AGENT.read_parts(agent)
+    except Unreadable:
+        return {}
+
+
+def _check_roles(node: Node, drafts: Dict[str, Draft]) -> None:
+    roles = [draft.get("role") for draft in drafts.values()]
+    if None in roles:
+        return
+    if roles.count(LEADER) != 1:
+        leaders = [name for name, draft in drafts.items() if draft["role"] == LEADER]
+        node.report.add(
+            node.path,
+            "must have exactly one agent with role {}; {}".format(
+                LEADER, "these have it: {}".format(", ".join(leaders)) if leaders else "none has it"
+            ),
+        )
+    if ASSISTANT not in roles:
+        node.report.add(node.path, "must have at least one agent with role {}".format(ASSISTANT))
+
+
+def _check_particles(node: Node, drafts: Dict[str, Draft], spec) -> None:
+    holders: Dict[int, str] = {}
+    for name, draft in drafts.items():
+        particle = draft.get("particle")
+        if particle is None:
+            continue
+        problem = _particle_problem(particle, holders.get(particle), spec)
+        if problem:
+            node.report.add(node.path + (name, "particle"), problem, show(particle))
+            del draft["particle"]
+        holders.setdefault(particle, name)
+
+
+def _particle_problem(particle: int, holder: Optional[str], spec) -> Optional[str]:
+    if spec is not None and particle >= spec.particles:
+        return "must be a particle of the object: 0 to {}".format(spec.particles - 1)
+    if holder is not None:
+        return "is held by agent {} already; give each agent a particle of its own".format(holder)
+    return None
+
+
+def _complete(name: str, draft: Draft, spec) -> AgentSpec:
+    if len(draft) < len(AGENT.fields):
+        raise Unreadable
+    values = dict(draft)
+    if values["start"] is None:
+        values["start"] = particle_position(spec, values["particle"])
+    if values["orientation"] is None:
+        values["orientation"] = spec.pose.orientation
+    return AgentSpec(name=name, **values)

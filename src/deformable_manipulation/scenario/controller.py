@@ -1,0 +1,75 @@
+"""The ``controller`` section."""
+
+from deformable_manipulation.scenario.readers import (
+    Array,
+    Auto,
+    Choice,
+    Flag,
+    Node,
+    Number,
+    Section,
+    vector,
+)
+from deformable_manipulation.scenario.spec import (
+    CollisionSpec,
+    ControllerSpec,
+    OverstretchSpec,
+    ProximitySpec,
+)
+
+_ALPHA = Array(2, Number("1/s", above=0.0), "[slope for h >= 0, slope for h < 0]")
+
+
+class QpSolver:
+    """A solver that qpsolvers offers for dense problems on this machine."""
+
+    allowed = "the name of a dense solver of qpsolvers that is installed"
+
+    def __call__(self, node: Node) -> str:
+        try:
+            import qpsolvers  # slow to import, and not needed where the key is absent
+        except ImportError:
+            return self._any_name(node)
+        return Choice(*qpsolvers.dense_solvers)(node)
+
+    def _any_name(self, node: Node) -> str:
+        if not isinstance(node.value, str) or not node.value:
+            node.fail("must be {}".format(self.allowed))
+        return node.value
+
+
+COLLISION = Section(
+    CollisionSpec,
+    {
+        "offset": Number("m", at_least=0.0),
+        "alpha": _ALPHA,
+        "band": Number("m", at_least=0.0),
+        "gradient": Choice("features", "minimum"),
+    },
+)
+
+OVERSTRETCH = Section(
+    OverstretchSpec, {"max_distance": Auto("m", above=0.0), "alpha": _ALPHA}
+)
+
+PROXIMITY = Section(
+    ProximitySpec, {"min_distance": Auto("m", at_least=0.0), "alpha": _ALPHA}
+)
+
+CONTROLLER = Section(
+    ControllerSpec,
+    {
+        "rate": Number("Hz", above=0.0, at_most=10000.0),
+        "gain": Number("1/s", above=0.0),
+        "weights": vector("1", above=0.0),
+        "max_velocity": Number("m/s", above=0.0),
+        "max_acceleration": Number("m/s^2", above=0.0),
+        "perturbation": vector("m", nonzero=True),
+        "feedforward": Flag(),
+        "solver": QpSolver(),
+        "timeout": Number("s", above=0.0),
+        "collision": COLLISION,
+        "overstretch": OVERSTRETCH,
+        "proximity": PROXIMITY,
+    },
+)

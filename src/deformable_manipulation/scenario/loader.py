@@ -1,0 +1,116 @@
+"""Scenarios from files and mappings: every mistake is found in one pass."""
+
+from pathlib import Path
+from typing import Any, Dict, Iterable, Mapping, Union
+
+from deformable_manipulation.scenario import checks
+from deformable_manipulation.scenario.agents import read_agents
+from deformable_manipulation.scenario.controller import CONTROLLER
+from deformable_manipulation.scenario.document import read_document
+from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.scenario.files import find_scenario
+from deformable_manipulation.scenario.names import FRAME, ONE_LINE
+from deformable_manipulation.scenario.objects import read_object
+from deformable_manipulation.scenario.obstacles import read_obstacles
+from deformable_manipulation.scenario.overrides import Override, apply_overrides
+from deformable_manipulation.scenario.readers import (
+    Custom,
+    Node,
+    Report,
+    Section,
+    Unreadable,
+)
+from deformable_manipulation.scenario.simulation import SIMULATION
+from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.waypoints import LEADER_PATH
+
+# The agents' starts follow from the object: their section is read when all others have been.
+_LATER = Custom(lambda node: node, "a section with one section per agent, by name")
+
+SCENARIO = Section(
+    Scenario,
+    {
+        "name": ONE_LINE,
+        "frame": FRAME,
+        "object": Custom(read_object, "a section with type and its keys"),
+        "agents": _LATER,
+        "obstacles": Custom(read_obstacles, "a list of obstacles"),
+        "leader": LEADER_PATH,
+        "controller": CONTROLLER,
+        "simulation": SIMULATION,
+    },
+    defaults={"obstacles": ()},
+)
+
+
+def load_scenario(path_or_name: Union[str, Path], overrides: Iterable[Override] = ()) -> Scenario:
+    """Read and check a scenario.
+
+    :param path_or_name: a YAML file, or the bare name of a scenario in ``config/scenarios``.
+    :param overrides: (key path, value as YAML text) pairs that replace values of the file, list
+        items by index: ``("leader.waypoints.1.time", "3")``.
+
+    Raises ScenarioError with all problems found.
+    """
+    path = find_scenario(str(path_or_name))
+    document = read_document(path)
+    raw, lines, problems = apply_overrides(document.value, document.lines, overrides)
+    report = Report(lines)
+    report.problems.extend(document.problems)
+    report.problems.extend(problems)
+    root = Node(raw, (), report, path.resolve().parent)
+    return _read_scenario(root, path.stem, str(path))
+
+
+def scenario_from_mapping(
+    mapping: Mapping[str, Any], directory: Union[str, Path], default_name: str = "scenario"
+) -> Scenario:
+    """Check a scenario given as plain values, such as the ``scenario`` parameter of a node.
+
+    :param mapping: what the YAML file would hold.
+    :param directory: where relative file names start.
+    :param default_name: name of a scenario that has none of its own.
+
+    Raises ScenarioError with all problems found.
+    """
+    return _read_scenario(Node(mapping, (), Report(), Path(directory)), default_name, "")
+
+
+def _read_scenario(root: Node, default_name: str, source: str) -> Scenario:
+    parts: Dict[str, Any] = {}
+    try:
+        parts = _read_sections(root, default_name)
+    except Unreadable:
+        pass  # reported
+    _check_together(root.report, parts)
+    if root.report.problems:
+        raise ScenarioError(root.report.problems, source)
+    return Scenario(**parts)
+
+
+def _read_sections(root: Node, default_name: str) -> Dict[str, Any]:
+    """The parts of a Scenario that can be read; raises Unreadable for no mapping at all."""
+    if isinstance(root.value, dict):
+        named = {"name": default_name, **root.value}
+        root = Node(named, root.path, root.report, root.directory)
+    parts = SCENARIO.read_parts(root)
+    if "agents" in parts:
+        try:
+            parts["agents"] = read_agents(parts["agents"], parts.get("object"))
+        except Unreadable:
+            del parts["agents"]
+    return parts
+
+
+def _check_together(report: Report, parts: Dict[str, Any]) -> None:
+    """Check sections against each other, as far as they could be read."""
+
+    def check(function, *keys):
+        if all(key in parts for key in keys):
+            function(report, *(parts[key] for key in keys))
+
+    check(checks.check_loop, "controller")
+    check(checks.check_time, "controller", "simulation")
+    check(checks.check_starts, "object", "agents")
+    check(checks.check_limits, "object", "agents", "controller")
+    check(checks.check_perturbation, "object", "agents", "controller")

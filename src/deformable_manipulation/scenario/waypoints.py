@@ -1,0 +1,48 @@
+"""The ``leader`` section: the waypoints of its scripted path."""
+
+from typing import Tuple
+
+from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
+from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint
+
+WAYPOINT = Section(Waypoint, {"time": Number("s", at_least=0.0, at_most=1e6),
+                              "position": position()})
+
+
+class Waypoints:
+    """A list of waypoints: times increasing, the first at time 0 and at the leader's start."""
+
+    allowed = "a list of waypoints {time: s, position: [x, y, z]}, the first at time 0"
+
+    def __call__(self, node: Node) -> Tuple[Waypoint, ...]:
+        if not isinstance(node.value, (list, tuple)) or not node.value:
+            node.fail("must be {}".format(self.allowed))
+        waypoints = read_items(node, WAYPOINT)
+        _check_first(node, waypoints[0])
+        _check_times(node, waypoints)
+        return waypoints
+
+
+def _check_first(node: Node, first: Waypoint) -> None:
+    if first.time != 0.0:
+        node.report.add(node.path + ("0", "time"), "must be 0", show(first.time))
+    if any(first.position):
+        node.report.add(
+            node.path + ("0", "position"),
+            "must be [0, 0, 0]: positions are relative to the leader's start",
+            show(list(first.position)),
+        )
+
+
+def _check_times(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
+    for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
+        if waypoint.time <= before.time:
+            node.report.add(
+                node.path + (str(index), "time"),
+                "must be later than the waypoint before ({:g} s)".format(before.time),
+                show(waypoint.time),
+            )
+
+
+LEADER_PATH = Section(LeaderSpec, {"waypoints": Waypoints()})
