@@ -1,0 +1,1 @@
+"""Collaborative manipulation of deformable objects with safe velocity controllers."""

@@ -1,0 +1,164 @@
+"""Runs a scenario in one process, without ROS, and records it."""
+
+import argparse
+import contextlib
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Iterator, Optional, Sequence
+
+from deformable_manipulation.commands.check_scenario import override
+from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.recording import RecordingError, RunRecorder
+from deformable_manipulation.recording.summary import describe
+from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.scenario.spec import Scenario
+
+INTERRUPTED = 128 + signal.SIGINT
+TERMINATED = 128 + signal.SIGTERM
+EXAMPLES = """examples:
+  run_scenario rope_one_assistant
+  run_scenario my_scenario.yaml --output output/trial --force
+  run_scenario rope_one_assistant --no-safety
+  run_scenario rope_one_assistant --set simulation.duration=20 \\
+      --set controller.collision.offset=0.1
+"""
+
+
+class _Terminated(KeyboardInterrupt):
+    """The process was asked to end by SIGTERM."""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit code."""
+    arguments = _parse(argv)
+    try:
+        scenario = load_scenario(arguments.scenario, arguments.set)
+        # Before the folder is made: a scenario that cannot be simulated leaves nothing behind.
+        loop = _make_loop(scenario, arguments.safety)
+        folder = Path(arguments.output) if arguments.output else _default_folder(scenario)
+        recorder = RunRecorder(scenario, folder, arguments.safety, overwrite=arguments.force)
+    except (ScenarioError, RecordingError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    except (ValueError, RuntimeError) as error:
+        # Of the simulation: a parameter out of its range, no settled shape.
+        print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
+        return 1
+    with _terminate_as_interrupt():
+        return _run(loop, recorder)
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="run_scenario",
+        description="Run a scenario without ROS, as fast as the machine allows, and record it.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("scenario", help="YAML file, or the name of a scenario of this package")
+    parser.add_argument(
+        "--output", metavar="DIR", help="folder of the run (default: output/<scenario>_<time>)"
+    )
+    parser.add_argument(
+        "--no-safety",
+        dest="safety",
+        action="store_false",
+        help="switch the safety filter off: follow the leader whatever is in the way",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY.PATH=VALUE",
+        type=override,
+        action="append",
+        default=[],
+        help="replace a value of the scenario; can be given several times",
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite the run in the output folder"
+    )
+    return parser.parse_args(argv)
+
+
+def _default_folder(scenario: Scenario) -> Path:
+    return Path("output") / "{}_{}".format(scenario.name, time.strftime("%Y%m%d_%H%M%S"))
+
+
+def _make_loop(scenario: Scenario, safety: bool):
+    # Imported late: loads the compiled simulation, which help and error messages do not need.
+    from deformable_manipulation.closed_loop import ClosedLoop
+
+    return ClosedLoop(scenario, safety=safety)
+
+
+def _run(loop, recorder: RunRecorder) -> int:
+    """Run the loop to its end or interruption; the recorder writes what there is either way."""
+    progress = ProgressDisplay(sys.stderr)
+    code = 1
+    completed = False
+    start = time.perf_counter()
+    try:
+        loop.run(recorder, progress)
+        completed = True
+        code = 0
+    except KeyboardInterrupt as interrupt:
+        code = TERMINATED if isinstance(interrupt, _Terminated) else INTERRUPTED
+    except RuntimeError as error:
+        # Of the simulation: a state that is no longer finite.
+        print(f"\nrun_scenario: the run stopped: {error}", file=sys.stderr)
+    finally:
+        wall_time = time.perf_counter() - start
+        progress.close()
+        written = _finish(recorder, wall_time, completed)
+    return code if written else 1
+
+
+def _finish(recorder: RunRecorder, wall_time: float, completed: bool) -> bool:
+    """Write the run and tell its main numbers; false where files could not be written."""
+    with _interrupts_ignored():
+        try:
+            summary = recorder.finish(wall_time, completed)
+        except RecordingError as error:
+            print(f"run_scenario: {error}", file=sys.stderr)
+            return False
+    print(describe(summary))
+    print(f"written to {recorder.directory}")
+    return True
+
+
+@contextlib.contextmanager
+def _terminate_as_interrupt() -> Iterator[None]:
+    """SIGTERM (a batch system's or timeout's) ends the run as Ctrl-C does: the data is kept."""
+
+    def interrupt(number, frame):
+        raise _Terminated
+
+    with _signal_handler(signal.SIGTERM, interrupt):
+        yield
+
+
+@contextlib.contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """A second, impatient Ctrl-C must not lose what is being written."""
+    with _signal_handler(signal.SIGINT, signal.SIG_IGN):
+        with _signal_handler(signal.SIGTERM, signal.SIG_IGN):
+            yield
+
+
+@contextlib.contextmanager
+def _signal_handler(number: int, handler) -> Iterator[None]:
+    # Only the main thread may set handlers; elsewhere no signal reaches this code anyway.
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    previous = signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        signal.signal(number, previous)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

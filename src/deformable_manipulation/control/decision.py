@@ -1,0 +1,46 @@
+"""What an assistant's controller decided in one cycle, and on what grounds."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from deformable_manipulation.control.status import Status
+
+
+def _unknown_vector():
+    return np.full(3, np.nan)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """One cycle of an assistant's controller; the fields of ControllerState.msg.
+
+    The command is always finite. Everything else is NaN where it is not known, as while waiting
+    for valid input.
+    """
+
+    status: Status
+    text: str  # the status in a sentence
+    enabled: bool
+    command: np.ndarray  # (3,) m/s, of the own held point
+    nominal: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m/s
+    position: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, own held point
+    target: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, leader plus reference
+    error: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, target minus position
+    distance: float = np.nan  # m, signed minimum of the object; inf: no obstacle
+    h_collision: float = np.nan  # m, distance minus offset
+    h_overstretch: float = np.nan  # m, the lowest over the other agents
+    h_proximity: float = np.nan  # m, the lowest over the other agents
+    jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
+    leader_drift: float = np.nan  # m/s, change of the distance by the leader's motion
+    rows: int = 0  # of the barriers
+    slack_collision: float = 0.0  # m/s, how far the rows of each kind are relaxed
+    slack_overstretch: float = 0.0
+    slack_proximity: float = 0.0
+    solve_time: float = 0.0  # s, safety filter alone
+    computation_time: float = 0.0  # s, whole update
+
+    @property
+    def error_norm(self):
+        """Distance from the target [m]."""
+        return float(np.sqrt(self.error @ self.error))

@@ -1,0 +1,31 @@
+"""What came of a controller's cycle."""
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """Outcome of one cycle; the numbers are those of ControllerState.msg."""
+
+    NOMINAL = 0
+    CONSTRAINED = 1
+    RELAXED = 2
+    FAILED = 3
+    WAITING = 4
+    DISABLED = 5
+    UNSAFE_FILTER_OFF = 6
+
+    @property
+    def sentence(self):
+        """The status in words."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Status.NOMINAL: "Follows the leader: no constraint changes the nominal velocity.",
+    Status.CONSTRAINED: "Departs from the nominal velocity so that all constraints hold.",
+    Status.RELAXED: "Not all constraints can hold; relaxed in their priority.",
+    Status.FAILED: "The quadratic program has no valid solution: zero velocity.",
+    Status.WAITING: "Waits for valid input: zero velocity.",
+    Status.DISABLED: "Switched off: zero velocity.",
+    Status.UNSAFE_FILTER_OFF: "UNSAFE, the safety filter is off: nominal velocity within limits.",
+}

@@ -1,0 +1,143 @@
+"""The leader's scripted motion."""
+
+import math
+
+import numpy as np
+
+
+class LeaderPath:
+    """Smooth path through waypoints: twice continuously differentiable, without overshoot.
+
+    Between two waypoints each axis follows the quintic polynomial with the velocities chosen at
+    the waypoints and zero accelerations there. The velocity at an inner waypoint is the harmonic
+    mean of the mean velocities before and after it, or zero where they differ in sign (Fritsch
+    and Butland, 1984), which is less than twice either one. Up to twice the mean velocity these
+    quintics are monotone, so every axis stays between the waypoints' values, and its speed is at
+    most twice the mean speed of the piece (15/8 of it from rest to rest). At rest before the
+    first and after the last waypoint.
+
+    Args:
+        waypoints: sequence of objects with ``time`` [s] and ``position`` (3,) [m].
+
+    Raises:
+        ValueError: no waypoint, a number that is not finite, or times that do not increase.
+    """
+
+    def __init__(self, waypoints):
+        if not waypoints:
+            raise ValueError("leader.waypoints: empty, at least one waypoint is needed")
+        self._times = np.array([waypoint.time for waypoint in waypoints], dtype=float)
+        self._positions = np.array([waypoint.position for waypoint in waypoints], dtype=float)
+        if not (np.isfinite(self._times).all() and np.isfinite(self._positions).all()):
+            raise ValueError("leader.waypoints: all times and positions have to be finite numbers")
+        if (np.diff(self._times) <= 0.0).any():
+            late = int(np.argmax(np.diff(self._times) <= 0.0)) + 1
+            raise ValueError(
+                f"leader.waypoints[{late}].time: {self._times[late]}, allowed is more than the "
+                f"time of the waypoint before, {self._times[late - 1]}"
+            )
+        self._velocities = _waypoint_velocities(self._times, self._positions)
+
+    def position(self, t):
+        """Position [m] at the times ``t`` [s]; shape ``t.shape + (3,)``."""
+        s, duration, start, change, v0, v1 = self._piece(t)
+        s2 = s * s
+        # Quintic Hermite polynomials of zero end accelerations, in s from 0 to 1.
+        return (
+            start
+            + change * s * s2 * (10.0 - 15.0 * s + 6.0 * s2)
+            + duration * v0 * s * (1.0 - s2 * (6.0 - 8.0 * s + 3.0 * s2))
+            - duration * v1 * s * s2 * (4.0 - 7.0 * s + 3.0 * s2)
+        )
+
+    def velocity(self, t):
+        """Velocity [m/s] at the times ``t`` [s]; shape ``t.shape + (3,)``."""
+        s, duration, _, change, v0, v1 = self._piece(t)
+        s2 = s * s
+        return (
+            change / duration * 30.0 * s2 * (1.0 - s) ** 2
+            + v0 * (1.0 - s2 * (18.0 - 32.0 * s + 15.0 * s2))
+            - v1 * s2 * (12.0 - 28.0 * s + 15.0 * s2)
+        )
+
+    def _piece(self, t):
+        """The piece that each time is in: s, duration, start, change, velocities at its ends."""
+        t = np.clip(np.asarray(t, dtype=float), self._times[0], self._times[-1])
+        if len(self._times) == 1:
+            zero = np.zeros(t.shape + (3,))
+            return np.zeros(t.shape + (1,)), 1.0, zero + self._positions[0], zero, zero, zero
+        i = np.clip(np.searchsorted(self._times, t, side="right") - 1, 0, len(self._times) - 2)
+        duration = (self._times[i + 1] - self._times[i])[..., None]
+        s = (t - self._times[i])[..., None] / duration
+        change = self._positions[i + 1] - self._positions[i]
+        return s, duration, self._positions[i], change, self._velocities[i], self._velocities[i + 1]
+
+
+def _waypoint_velocities(times, positions):
+    velocities = np.zeros_like(positions)
+    means = np.diff(positions, axis=0) / np.diff(times)[:, None]
+    before, after = means[:-1], means[1:]
+    same_sign = np.sign(before) * np.sign(after) > 0.0
+    total = np.where(same_sign, before + after, 1.0)
+    velocities[1:-1] = np.where(same_sign, 2.0 * before * (after / total), 0.0)
+    return velocities
+
+
+class LeaderController:
+    """Velocity command that keeps the leader's held point on its path.
+
+    The command computed from state k (time t, position x) acts from t + dt to t + 2 dt. Until
+    then the leader moves with the command before it, so
+
+        v = (path(t + 2 dt) - (x + dt v_previous)) / dt
+
+    puts it exactly on the path at t + 2 dt. On the path this is the mean velocity of the path
+    over that cycle, which is not limited: the path itself sets the speed (:class:`LeaderPath`).
+    Only the return to the path after a disturbance is limited, to ``controller.max_velocity``
+    per component, so that a displaced leader comes back without a leap.
+
+    Args:
+        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`; the path is relative
+            to the leader's start.
+    """
+
+    def __init__(self, scenario):
+        self._path = LeaderPath(scenario.leader.waypoints)
+        self._start = np.array(scenario.agents[scenario.leader_index].start, dtype=float)
+        self._cycle_time = scenario.cycle_time
+        self._max_return = scenario.controller.max_velocity
+        self.reset()
+
+    def reset(self):
+        """Forget the previous command: the leader is at rest."""
+        self._time = None
+        self._velocity = np.zeros(3)
+
+    def update(self, time, position):
+        """Velocity command [m/s] (3,) for one state.
+
+        Args:
+            time: of the state [s], since the start of the run. A time that is not newer than the
+                last one gets the same answer; an earlier one by more than a second means that
+                time was set back.
+            position: (3,) of the leader's held point [m].
+
+        Returns:
+            Zero for a time or position that is not finite.
+        """
+        position = np.asarray(position, dtype=float)
+        if not (math.isfinite(time) and np.isfinite(position).all()):
+            self._velocity = np.zeros(3)
+            return self._velocity
+        if self._time is not None and time < self._time - 1.0:
+            self.reset()
+        if self._time is None or time > self._time:
+            self._velocity = self._command(time, position)
+            self._time = time
+        return self._velocity
+
+    def _command(self, time, position):
+        dt = self._cycle_time
+        begin, end = self._start + self._path.position(time + dt * np.array([1.0, 2.0]))
+        back = (begin - (position + dt * self._velocity)) / dt
+        return (end - begin) / dt + np.clip(back, -self._max_return, self._max_return)

@@ -1,0 +1,245 @@
+"""The paper's data plots: what one controller saw and decided, in one column's width."""
+
+from typing import List, Optional, Tuple
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.recording.run_data import AssistantSeries, RunData
+from deformable_manipulation.recording.timeseries import AXES
+
+COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
+PANEL_HEIGHT = 1.0  # in, with its legend
+MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
+RESOLUTION = 300  # dots per inch of pixel formats
+MOVING = 1e-4  # m/s, velocity components that stay below are left out
+# Farther than this many offsets from the obstacle, distances say nothing about safety, and showing
+# them would hide a violation of some millimetres.
+DISTANCE_RANGE = 5.0
+
+# Colours that people with any common colour vision deficiency tell apart (Okabe and Ito).
+BLACK = "#000000"
+BLUE = "#0072B2"
+ORANGE = "#E69F00"
+GREEN = "#009E73"
+VERMILLION = "#D55E00"
+VIOLATION = {"color": VERMILLION, "marker": "v", "markersize": 4, "linestyle": "none"}
+
+# Background where the controller's status is one of these; the tones also differ in grey. The
+# rare ones get an outline, so that a single cycle among thousands still shows.
+SHADES = (
+    ((Status.CONSTRAINED,), "filter active", "#DCEBF6", 0.0),
+    ((Status.RELAXED,), "constraints relaxed", "#F3C27E", 0.5),
+    ((Status.FAILED,), "no solution", "#C9664B", 0.5),
+    ((Status.WAITING, Status.DISABLED), "stopped", "#D9D9D9", 0.5),
+    ((Status.UNSAFE_FILTER_OFF,), "filter off", "#F0E4EE", 0.0),
+)
+STYLE = {
+    "font.size": 7,
+    "axes.labelsize": 7,
+    "axes.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "grid.linewidth": 0.4,
+    "grid.color": "#CCCCCC",
+    "xtick.labelsize": 6.5,
+    "ytick.labelsize": 6.5,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "legend.fontsize": 6.5,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "legend.handletextpad": 0.4,
+    "legend.columnspacing": 1.2,
+    "legend.borderpad": 0.0,
+    "legend.borderaxespad": 0.1,
+    "legend.labelspacing": 0.25,
+    "lines.linewidth": 0.9,
+    "pdf.fonttype": 42,  # publishers refuse the default, type 3
+    "ps.fonttype": 42,
+}
+
+
+def plot_controller(
+    run: RunData, series: AssistantSeries, figure: Optional[Figure] = None
+) -> Figure:
+    """Draw the data plot of one controller of a run.
+
+    Panels over a shared time axis: distance to the obstacle with its offset, norm of the tracking
+    error, margins to overstretch and proximity, and every moving component of the nominal and the
+    commanded velocity. Shading tells what the safety filter did; where a limit is violated, the
+    violation is filled and marked at its worst.
+
+    Draws into ``figure`` when given (a window's), else into a new one without a window.
+    """
+    components = _moving_components(series)
+    panels = 3 + len(components)
+    with rc_context(STYLE):
+        figure = figure if figure is not None else Figure()
+        figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
+        figure.set_layout_engine("constrained", h_pad=0.02, w_pad=0.02, hspace=0.02)
+        axes = figure.subplots(panels, 1, sharex=True)
+        violated = _plot_distance(axes[0], run)
+        axes[1].plot(series.time, series.error_norm, color=BLUE)
+        axes[1].set_ylabel("error [m]")
+        axes[1].set_ylim(bottom=0)
+        violated |= _plot_margins(axes[2], series)
+        for axis, component in zip(axes[3:], components):
+            _plot_velocity(axis, series, component)
+        _legend_above(axes[3])
+        _finish_figure(figure, axes, run, series, violated)
+    return figure
+
+
+def save_figure(figure: Figure, path) -> None:
+    """Write a figure in the format its name's ending tells (png, pdf, svg).
+
+    Raises OSError; ValueError: unknown format.
+    """
+    with rc_context(STYLE):
+        figure.savefig(str(path), dpi=RESOLUTION)
+
+
+def _finish_figure(
+    figure: Figure, axes, run: RunData, series: AssistantSeries, violated: bool
+) -> None:
+    """What the panels share: time axis, shading, title and legend of the figure."""
+    axes[-1].set_xlabel("time [s]")
+    axes[-1].set_xlim(*_time_range(run.time))
+    figure.align_ylabels(axes)
+    handles = [
+        Patch(facecolor=colour, label=label)
+        for statuses, label, colour, outline in SHADES
+        if _shade(axes, series, statuses, colour, outline)
+    ]
+    if violated:
+        handles.append(Line2D([], [], label="violation", **VIOLATION))
+    figure.legend(
+        handles=handles,
+        loc="outside upper center",
+        ncols=max(1, len(handles)),
+        title=f"{run.name}: {series.agent}",
+        borderaxespad=0.4,
+    )
+
+
+def _plot_distance(axis: Axes, run: RunData) -> bool:
+    """Draw the distance; true where it falls below the offset."""
+    axis.set_ylabel("distance [m]")
+    if not np.isfinite(run.distance).any():
+        axis.text(0.5, 0.5, "no obstacle", ha="center", va="center", transform=axis.transAxes)
+        return False
+    distance = np.where(np.isfinite(run.distance), run.distance, np.nan)
+    axis.plot(run.time, distance, color=BLUE, label=_with_lowest("distance", distance))
+    violated = False
+    if run.offset is not None:
+        label = f"offset {_millimetres(run.offset)}"
+        axis.axhline(run.offset, color=BLACK, linestyle="--", linewidth=0.8, label=label)
+        violated = _mark_violation(axis, run.time, distance, run.offset)
+        top = DISTANCE_RANGE * run.offset
+        if 0 < top < np.nanmax(distance):
+            axis.set_ylim(top=top)
+    _legend_above(axis)
+    return violated
+
+
+def _plot_margins(axis: Axes, series: AssistantSeries) -> bool:
+    """Draw both margins between agents; true where one falls below zero."""
+    axis.set_ylabel("margin [m]")
+    axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
+    violated = False
+    for name, values, colour, style in (
+        ("overstretch", series.h_overstretch, GREEN, "-"),
+        ("proximity", series.h_proximity, ORANGE, "-."),
+    ):
+        margin = np.where(np.isfinite(values), values, np.nan)
+        if not np.isnan(margin).all():
+            label = _with_lowest(name, margin)
+            axis.plot(series.time, margin, color=colour, linestyle=style, label=label)
+            violated |= _mark_violation(axis, series.time, margin, 0.0)
+    _legend_above(axis)
+    return violated
+
+
+def _plot_velocity(axis: Axes, series: AssistantSeries, component: int) -> None:
+    nominal, command = series.nominal_velocity[:, component], series.command[:, component]
+    axis.set_ylabel(f"velocity {AXES[component]} [m/s]")
+    axis.plot(series.time, command, color=BLUE, label="commanded")
+    axis.plot(series.time, nominal, color=ORANGE, linestyle="--", label="nominal")
+
+
+def _mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: float) -> bool:
+    """Fill what lies below a limit and mark the lowest point; false where nothing does."""
+    below = np.nan_to_num(values, nan=np.inf) < limit
+    if not below.any():
+        return False
+    colour = VIOLATION["color"]
+    axis.fill_between(time, values, limit, where=below, color=colour, linewidth=0.8)
+    worst = np.nanargmin(values)
+    axis.plot(time[worst], values[worst], **VIOLATION)
+    return True
+
+
+def _legend_above(axis: Axes) -> None:
+    """A legend in one line above a panel, where it hides no data; none without labels."""
+    handles, labels = axis.get_legend_handles_labels()
+    if handles:
+        axis.legend(
+            handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles)
+        )
+
+
+def _time_range(time: np.ndarray) -> Tuple[float, float]:
+    """From the first sample to the end of the last one's cycle."""
+    start, end = float(time[0]), float(time[-1])
+    if end == start:
+        return start, start + 1.0
+    return start, round(end + (end - start) / (len(time) - 1), 6)
+
+
+def _with_lowest(name: str, values: np.ndarray) -> str:
+    return f"{name} (min {_millimetres(np.nanmin(values))})"
+
+
+def _millimetres(metres: float) -> str:
+    """A length in mm, rounded to 0.1 mm without a useless zero."""
+    return f"{round(1e3 * metres, 1):g} mm"
+
+
+def _shade(
+    axes, series: AssistantSeries, statuses: Tuple[Status, ...], colour: str, outline: float
+) -> bool:
+    """Shade the times with one of the statuses in all panels; false where there are none."""
+    intervals = _intervals(series.time, np.isin(series.status, statuses))
+    for axis in axes:
+        if intervals:
+            axis.broken_barh(
+                intervals,
+                (0, 1),
+                transform=axis.get_xaxis_transform(),
+                facecolor=colour,
+                edgecolor=colour,
+                linewidth=outline,
+                zorder=0,
+            )
+    return bool(intervals)
+
+
+def _intervals(time: np.ndarray, active: np.ndarray) -> List[Tuple[float, float]]:
+    """(start, duration) [s] of every stretch that is active; a sample lasts until the next."""
+    edges = np.diff(np.concatenate(([False], active, [False])).astype(int))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    ends = np.minimum(ends, len(time) - 1)
+    return [(time[start], time[end] - time[start]) for start, end in zip(starts, ends)]
+
+
+def _moving_components(series: AssistantSeries) -> List[int]:
+    """Axes along which the assistant moves or would; all of them when it never does."""
+    velocities = np.nan_to_num(np.concatenate((series.nominal_velocity, series.command)))
+    moving = np.flatnonzero(np.abs(velocities).max(axis=0) > MOVING)
+    return list(moving) if len(moving) else [0, 1, 2]

@@ -1,0 +1,87 @@
+"""Reads the folder that ``run_scenario`` wrote."""
+
+import csv
+from pathlib import Path
+from typing import Dict, List, Tuple
+
+import numpy as np
+
+from deformable_manipulation.recording import run_files
+from deformable_manipulation.recording.run_data import (
+    SERIES_COLUMNS,
+    RunData,
+    RunDataError,
+    make_assistant_series,
+    offset_of,
+)
+
+STATUS_SUFFIX = ".status"  # only assistants have a status
+
+
+def read_folder(folder: Path) -> RunData:
+    """Read ``timeseries.csv`` of a run folder.
+
+    Raises RunDataError: it cannot be read, is cut off, or lacks columns or rows.
+    """
+    path = folder / run_files.TIMESERIES
+    header, rows = _read_rows(path)
+    agents = [name[: -len(STATUS_SUFFIX)] for name in header if name.endswith(STATUS_SUFFIX)]
+    wanted = ["time", "distance"]
+    wanted += [f"{agent}.{column}" for agent in agents for column in SERIES_COLUMNS]
+    columns = _select_columns(path, header, rows, wanted)
+    assistants = tuple(
+        make_assistant_series(
+            agent,
+            columns["time"],
+            columns["distance"],
+            {name: columns[f"{agent}.{name}"] for name in SERIES_COLUMNS},
+        )
+        for agent in agents
+    )
+    return RunData(
+        name=folder.resolve().name,
+        path=folder,
+        time=columns["time"],
+        distance=columns["distance"],
+        offset=offset_of(assistants),
+        assistants=assistants,
+    )
+
+
+def _read_rows(path: Path) -> Tuple[List[str], List[List[str]]]:
+    try:
+        with open(str(path), newline="", encoding="utf-8") as file:
+            reader = csv.reader(file)
+            header = next(reader, [])
+            rows = list(reader)
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise RunDataError(f"{path} cannot be read: {error}") from error
+    if not rows:
+        raise RunDataError(f"{path} holds no cycle: the run stopped before its first")
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise RunDataError(
+                f"{path} line {line}: {len(row)} values for {len(header)} columns; the file is cut "
+                "off or was edited"
+            )
+    return header, rows
+
+
+def _select_columns(
+    path: Path, header: List[str], rows: List[List[str]], wanted: List[str]
+) -> Dict[str, np.ndarray]:
+    missing = [name for name in wanted if name not in header]
+    if missing:
+        raise RunDataError(
+            "{} lacks the columns {}; it is no time series of a run".format(
+                path, ", ".join(missing)
+            )
+        )
+    columns = {}
+    for name in wanted:
+        index = header.index(name)
+        try:
+            columns[name] = np.array([float(row[index]) for row in rows])
+        except ValueError as error:
+            raise RunDataError(f"{path} column {name}: {error}") from error
+    return columns

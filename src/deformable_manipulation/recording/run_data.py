@@ -1,0 +1,125 @@
+"""A recorded run as arrays, the same whether read from a run folder or from a bag."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Mapping, Optional, Tuple
+
+import numpy as np
+
+from deformable_manipulation.recording import run_files
+from deformable_manipulation.recording.timeseries import vector_columns
+
+BAG_SUFFIXES = (".bag", ".bag.active")
+
+
+class RunDataError(Exception):
+    """A run cannot be read; the message says what is missing or wrong and what to do."""
+
+
+@dataclass(frozen=True)
+class AssistantSeries:
+    """What the controller of one assistant saw and decided, M samples; nan: unknown then."""
+
+    agent: str
+    time: np.ndarray  # (M,) s, 0 at cycle 0
+    distance: np.ndarray  # (M,) m, of the object itself; inf: no obstacle
+    error_norm: np.ndarray  # (M,) m
+    h_collision: np.ndarray  # (M,) m
+    h_overstretch: np.ndarray  # (M,) m
+    h_proximity: np.ndarray  # (M,) m
+    nominal_velocity: np.ndarray  # (M, 3) m/s
+    command: np.ndarray  # (M, 3) m/s
+    status: np.ndarray  # (M,) int, the constants of ControllerState
+
+
+@dataclass(frozen=True)
+class RunData:
+    """A run: the distance of the object itself over T cycles, and each assistant's series."""
+
+    name: str  # of its folder or bag
+    path: Path
+    time: np.ndarray  # (T,) s, 0 at cycle 0
+    distance: np.ndarray  # (T,) m, signed; inf: no obstacle
+    offset: Optional[float]  # m, distance to keep; None: no controller has computed it
+    assistants: Tuple[AssistantSeries, ...]
+    notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
+
+
+def read_run(path, namespace: Optional[str] = None) -> RunData:
+    """Read a run folder, a bag, or a folder that holds exactly one bag.
+
+    ``namespace`` chooses one of several runs that were recorded side by side into one bag.
+
+    Raises RunDataError: there is no run, or it cannot be read.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise RunDataError(f"{path} does not exist")
+    # Imported late: each needs only its own file format's library.
+    if (path / run_files.TIMESERIES).is_file():
+        from deformable_manipulation.recording.folder_reader import read_folder
+
+        return read_folder(path)
+    bag = _only_bag(path) if path.is_dir() else path
+    if not bag.name.endswith(BAG_SUFFIXES):
+        raise RunDataError(
+            f"{path} is neither a run folder nor a bag; give the folder that run_scenario wrote, "
+            "or a file recorded by rosbag"
+        )
+    from deformable_manipulation.recording.bag_reader import read_bag
+
+    return read_bag(bag, namespace)
+
+
+def make_assistant_series(
+    agent: str, time: np.ndarray, distance: np.ndarray, columns: Mapping[str, np.ndarray]
+) -> AssistantSeries:
+    """Put together an assistant's series from arrays (M,) by their names in the time series."""
+    status = columns["status"]
+    if not np.all(np.isfinite(status)):
+        raise RunDataError(f"the status of {agent} is not a number in places")
+    return AssistantSeries(
+        agent=agent,
+        time=time,
+        distance=distance,
+        error_norm=columns["error_norm"],
+        h_collision=columns["h_collision"],
+        h_overstretch=columns["h_overstretch"],
+        h_proximity=columns["h_proximity"],
+        nominal_velocity=_stack(columns, "nominal_velocity"),
+        command=_stack(columns, "command"),
+        status=status.astype(int),
+    )
+
+
+# Columns of an assistant in the time series that make_assistant_series needs.
+SERIES_COLUMNS = (
+    ("error_norm", "h_collision", "h_overstretch", "h_proximity", "status")
+    + vector_columns("nominal_velocity")
+    + vector_columns("command")
+)
+
+
+def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
+    """The collision offset [m] behind the recorded barrier values: distance - h_collision."""
+    differences = [series.distance - series.h_collision for series in assistants]
+    values = np.concatenate(differences) if differences else np.empty(0)
+    finite = values[np.isfinite(values)]
+    return float(np.median(finite)) if finite.size else None
+
+
+def _only_bag(folder: Path) -> Path:
+    bags = sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
+    if not bags:
+        raise RunDataError(f"{folder} holds neither {run_files.TIMESERIES} nor a bag")
+    if len(bags) > 1:
+        raise RunDataError(
+            "{} holds several bags; give one of them: {}".format(
+                folder, ", ".join(path.name for path in bags)
+            )
+        )
+    return bags[0]
+
+
+def _stack(columns: Mapping[str, np.ndarray], name: str) -> np.ndarray:
+    return np.stack([columns[column] for column in vector_columns(name)], axis=-1)

@@ -1,0 +1,117 @@
+"""A run in numbers: the content of ``summary.json``."""
+
+import json
+import math
+from typing import IO, Optional
+
+import numpy as np
+
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.recording.provenance import machine, package_version
+from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
+from deformable_manipulation.scenario.spec import Scenario
+
+
+def summarise(
+    scenario: Scenario, series: TimeSeries, wall_time: float, completed: bool, safety: bool
+) -> dict:
+    """The numbers of a run; None where there is none (no obstacle, nothing recorded).
+
+    ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run.
+    Lengths are in m, times in s unless the key says ms.
+    """
+    offset = scenario.controller.collision.offset
+    min_distance = _lowest(series.column("distance"))
+    status = _of_assistants(series, "status")
+    return {
+        "scenario": scenario.name,
+        "completed": completed,
+        "safety": safety,
+        "duration": len(series) / scenario.controller.rate,
+        "cycles": len(series),
+        "rate": scenario.controller.rate,
+        "wall_time": wall_time,
+        "min_distance": min_distance,
+        "offset": offset,
+        "worst_violation": 0.0 if min_distance is None else max(0.0, offset - min_distance),
+        "min_stretch_margin": _lowest(_of_assistants(series, "h_overstretch")),
+        "min_proximity_margin": _lowest(_of_assistants(series, "h_proximity")),
+        "tracking_error": {
+            name: _error_statistics(series.column(name + ".error_norm"))
+            for name in series.assistants
+        },
+        "qp_relaxed": int(np.count_nonzero(status == Status.RELAXED)),
+        "qp_failed": int(np.count_nonzero(status == Status.FAILED)),
+        "timing": {name: _milliseconds(series.timing(name)) for name in TIMING_COLUMNS},
+        "version": package_version(),
+        "machine": machine(),
+    }
+
+
+def write_summary(summary: dict, file: IO) -> None:
+    """Write as strict JSON: JSON has no nan and no infinity, they become null."""
+    json.dump(_without_non_finite(summary), file, indent=2, allow_nan=False)
+    file.write("\n")
+
+
+def describe(summary: dict) -> str:
+    """The main numbers for a reader at a terminal, one per line."""
+    lines = [
+        "{} of {:.2f} s simulated in {:.2f} s".format(
+            "whole run" if summary["completed"] else "stopped early: run",
+            summary["duration"],
+            summary["wall_time"],
+        ),
+        "lowest distance          {} (offset {})".format(
+            _millimetres(summary["min_distance"]), _millimetres(summary["offset"])
+        ),
+        "worst violation          {}".format(_millimetres(summary["worst_violation"])),
+        "lowest stretch margin    {}".format(_millimetres(summary["min_stretch_margin"])),
+        "lowest proximity margin  {}".format(_millimetres(summary["min_proximity_margin"])),
+    ]
+    for name, error in summary["tracking_error"].items():
+        values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
+        lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))
+    lines.append("QPs relaxed {qp_relaxed}, failed {qp_failed}".format(**summary))
+    return "\n".join(lines)
+
+
+def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:
+    """A column of every assistant, shape (assistants, rows)."""
+    return np.array([series.column(f"{name}.{column}") for name in series.assistants])
+
+
+def _lowest(values: np.ndarray) -> Optional[float]:
+    finite = values[np.isfinite(values)]
+    return float(finite.min()) if finite.size else None
+
+
+def _error_statistics(error: np.ndarray) -> dict:
+    finite = error[np.isfinite(error)]
+    if not finite.size:
+        return {"rms": None, "max": None, "final": None}
+    return {
+        "rms": float(np.sqrt(np.mean(finite**2))),
+        "max": float(finite.max()),
+        "final": float(finite[-1]),
+    }
+
+
+def _milliseconds(seconds: np.ndarray) -> dict:
+    finite = 1e3 * seconds[np.isfinite(seconds)]
+    if not finite.size:
+        return {"median_ms": None, "p99_ms": None}
+    median, p99 = np.percentile(finite, [50, 99])
+    return {"median_ms": float(median), "p99_ms": float(p99)}
+
+
+def _millimetres(metres: Optional[float]) -> str:
+    return "none" if metres is None else f"{1e3 * metres:.1f} mm"
+
+
+def _without_non_finite(value):
+    if isinstance(value, dict):
+        return {key: _without_non_finite(item) for key, item in value.items()}
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

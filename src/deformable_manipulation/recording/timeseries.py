@@ -1,0 +1,143 @@
+"""The table of a run: one row per cycle, with the columns of ``timeseries.csv``."""
+
+import math
+from dataclasses import dataclass
+from typing import IO, List, Mapping, NamedTuple, Tuple
+
+import numpy as np
+
+from deformable_manipulation.control.decision import Decision
+
+AXES = ("x", "y", "z")
+INITIAL_ROWS = 1 << 14
+
+
+def vector_columns(name: str) -> Tuple[str, ...]:
+    """Names of the three columns of a vector."""
+    return tuple(f"{name}_{axis}" for axis in AXES)
+
+
+RUN_COLUMNS = ("cycle", "time", "distance")
+AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
+ASSISTANT_COLUMNS = (
+    vector_columns("target")
+    + vector_columns("error")
+    + ("error_norm",)
+    + vector_columns("nominal_velocity")
+    + vector_columns("command")
+    + ("h_collision", "h_overstretch", "h_proximity")
+    + vector_columns("jacobian")
+    + ("leader_drift", "slack_collision", "slack_overstretch", "slack_proximity")
+    + ("status", "rows", "solve_time")
+)
+# Kept beside the columns of the file: they describe the machine, not the run.
+TIMING_COLUMNS = ("simulation", "distance", "controller")
+
+
+class CycleTimings(NamedTuple):
+    """Seconds that the parts of one cycle took; nan: did not run in this cycle."""
+
+    simulation: float
+    distance: float
+    controller: float
+
+
+@dataclass(frozen=True)
+class CycleRecord:
+    """Everything worth keeping of one cycle: A agents, P geometry points of the object itself.
+
+    The arrays are copied when recorded, so the caller may use them again. ``decisions`` holds the
+    :class:`~deformable_manipulation.control.decision.Decision` of every assistant by name.
+    """
+
+    cycle: int
+    time: float  # s
+    distance: float  # m, signed minimum of the object itself; inf: no obstacle
+    positions: np.ndarray  # (A, 3) m, held points
+    velocities: np.ndarray  # (A, 3) m/s, the velocities that led to this state
+    points: np.ndarray  # (P, 3) m
+    decisions: Mapping[str, Decision]
+    timings: CycleTimings
+
+
+class TimeSeries:
+    """Rows of a run in memory: appended in some microseconds, written as CSV at the end."""
+
+    def __init__(self, agents: Tuple[str, ...], assistants: Tuple[str, ...], rows: int = 0):
+        """``agents`` in the order of the arrays of a CycleRecord; ``rows`` expected."""
+        self.assistants = assistants
+        self.columns = RUN_COLUMNS + tuple(
+            f"{agent}.{column}" for agent in agents for column in AGENT_COLUMNS
+        )
+        self.columns += tuple(
+            f"{assistant}.{name}" for assistant in assistants for name in ASSISTANT_COLUMNS
+        )
+        self._indices = {name: index for index, name in enumerate(self.columns)}
+        self._count = 0
+        self._rows = np.empty((0, len(self.columns) + len(TIMING_COLUMNS)))
+        self._allocate(min(max(rows, 1), INITIAL_ROWS))
+
+    def __len__(self) -> int:
+        return self._count
+
+    def append(self, record: CycleRecord) -> None:
+        """Add the row of one cycle; KeyError where an assistant's decision is missing."""
+        count = self._count
+        if count == len(self._rows):
+            self._allocate(2 * count)
+        # One list and one assignment: many small assignments to an array cost twice as much.
+        row = [record.cycle, record.time, record.distance]
+        for position, velocity in zip(record.positions.tolist(), record.velocities.tolist()):
+            row += position
+            row += velocity
+        for name in self.assistants:
+            row += _decision_row(record.decisions[name])
+        row += record.timings
+        self._rows[count] = row
+        # Last, so that an interruption within this function leaves whole rows only.
+        self._count = count + 1
+
+    def column(self, name: str) -> np.ndarray:
+        """One column by its name in the file, shape (rows,)."""
+        return self._rows[: self._count, self._indices[name]]
+
+    def timing(self, name: str) -> np.ndarray:
+        """Seconds per cycle of one of TIMING_COLUMNS, shape (rows,)."""
+        return self._rows[: self._count, len(self.columns) + TIMING_COLUMNS.index(name)]
+
+    def write_csv(self, file: IO) -> None:
+        """Write all rows, with twelve significant digits, to an open text file."""
+        file.write(",".join(self.columns) + "\n")
+        row_format = ",".join(["%.12g"] * len(self.columns)) + "\n"
+        rows = self._rows[: self._count, : len(self.columns)]
+        file.writelines(row_format % tuple(row) for row in rows.tolist())
+
+    def _allocate(self, rows: int) -> None:
+        table = np.empty((rows, len(self.columns) + len(TIMING_COLUMNS)))
+        table[: self._count] = self._rows[: self._count]
+        self._rows = table
+
+
+def _decision_row(decision: Decision) -> List[float]:
+    """An assistant's decision in the order of ASSISTANT_COLUMNS."""
+    error_x, error_y, error_z = decision.error.tolist()
+    return [
+        *decision.target.tolist(),
+        error_x,
+        error_y,
+        error_z,
+        math.sqrt(error_x * error_x + error_y * error_y + error_z * error_z),
+        *decision.nominal.tolist(),
+        *decision.command.tolist(),
+        decision.h_collision,
+        decision.h_overstretch,
+        decision.h_proximity,
+        *decision.jacobian.tolist(),
+        decision.leader_drift,
+        decision.slack_collision,
+        decision.slack_overstretch,
+        decision.slack_proximity,
+        decision.status,
+        decision.rows,
+        decision.solve_time,
+    ]

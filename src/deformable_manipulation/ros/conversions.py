@@ -1,0 +1,160 @@
+"""Messages to the core's arrays and back.
+
+The messages are read and written through ``rospy.numpy_msg``, so their arrays are numpy arrays.
+Agents are matched by name: a message may list them in another order than the scenario.
+"""
+
+import numpy as np
+
+from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.distance.features import Distances
+
+
+class MessageError(ValueError):
+    """A message that does not fit the scenario or itself; the text names the field."""
+
+
+def points_of(state) -> np.ndarray:
+    """Geometry points (C, P, 3) [m] of all copies in an ``ObjectState``.
+
+    Raises MessageError: the array's size does not fit.
+    """
+    return _reshaped(state.points, "points", (len(state.displaced_agents), state.point_count, 3))
+
+
+def agent_order(state, scenario) -> np.ndarray:
+    """Rows (A,) of the message's agents in the scenario's order.
+
+    Raises MessageError: an agent of the scenario is not in the message.
+    """
+    rows = {name: row for row, name in enumerate(state.agents)}
+    missing = [agent.name for agent in scenario.agents if agent.name not in rows]
+    if missing:
+        raise MessageError(f"agents: without {', '.join(missing)}, which the scenario has")
+    return np.array([rows[agent.name] for agent in scenario.agents])
+
+
+def agent_positions(state, scenario) -> np.ndarray:
+    """Held points (A, 3) [m] in the scenario's order. Raises MessageError."""
+    positions = _reshaped(state.agent_positions, "agent_positions", (len(state.agents), 3))
+    return positions[agent_order(state, scenario)]
+
+
+def to_observation(state, distances, scenario) -> Observation:
+    """What a controller sees, from an ``ObjectState`` and the ``Distances`` of the same cycle.
+
+    Time counts from the start of the run: cycles of the scenario's rate.
+
+    Raises MessageError: an array's size does not fit, or an agent is missing.
+    """
+    order = agent_order(state, scenario)
+    scenario_index = np.full(len(state.agents) + 1, -1)
+    scenario_index[order] = np.arange(len(order))
+    copies = len(state.displaced_agents)
+    displaced = np.asarray(state.displaced_agents)
+    if ((displaced < -1) | (displaced >= len(state.agents))).any():
+        raise MessageError(f"displaced_agents: {displaced.tolist()}, but {len(state.agents)} agents")
+    return Observation(
+        time=state.cycle * scenario.cycle_time,
+        cycle=state.cycle,
+        positions=agent_positions(state, scenario),
+        points=points_of(state),
+        displaced_agents=scenario_index[displaced],
+        displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
+        ready=np.asarray(state.copy_ready, dtype=bool),
+        distances=to_distances(distances),
+    )
+
+
+def to_distances(message) -> Distances:
+    """The core's result from a ``Distances`` message.
+
+    Raises MessageError: an array's size does not fit.
+    """
+    features = len(message.feature_distances)
+    vectors = (features, 3)
+    return Distances(
+        minimum=message.minimum_distances,
+        offsets=np.asarray(message.feature_offsets, dtype=np.int64),
+        distance=message.feature_distances,
+        obstacle=message.feature_obstacles,
+        object_point=_reshaped(message.object_points, "object_points", vectors),
+        obstacle_point=_reshaped(message.obstacle_points, "obstacle_points", vectors),
+        normal=_reshaped(message.normals, "normals", vectors),
+        vertices=_reshaped(message.feature_vertices, "feature_vertices", vectors).astype(np.int64),
+        weights=_reshaped(message.feature_weights, "feature_weights", vectors),
+        obstacle_velocity=_reshaped(message.obstacle_velocities, "obstacle_velocities", vectors),
+        names=tuple(message.obstacles),
+    )
+
+
+def fill_distances(message, state, distances, computation_time):
+    """Write the distances of a state into a ``Distances`` message."""
+    message.header = state.header
+    message.cycle = state.cycle
+    message.reset_count = state.reset_count
+    message.obstacles = list(distances.names)
+    message.minimum_distances = distances.minimum
+    message.feature_offsets = distances.offsets.astype(np.uint32)
+    message.feature_distances = distances.distance
+    message.feature_obstacles = distances.obstacle.astype(np.int32)
+    message.object_points = distances.object_point.ravel()
+    message.obstacle_points = distances.obstacle_point.ravel()
+    message.normals = distances.normal.ravel()
+    message.obstacle_velocities = distances.obstacle_velocity.ravel()
+    message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
+    message.feature_weights = distances.weights.ravel()
+    message.computation_time = computation_time
+    return message
+
+
+def fill_controller_state(message, state, agent, decision):
+    """Write a controller's decision on a state into a ``ControllerState`` message."""
+    message.header = state.header
+    message.cycle = state.cycle
+    message.reset_count = state.reset_count
+    message.agent = agent
+    message.enabled = decision.enabled
+    message.status = int(decision.status)
+    message.status_text = decision.text
+    for name, vector in (
+        ("position", decision.position),
+        ("target", decision.target),
+        ("error", decision.error),
+        ("nominal_velocity", decision.nominal),
+        ("velocity", decision.command),
+        ("jacobian", decision.jacobian),
+    ):
+        for axis, value in zip("xyz", vector):
+            setattr(message, f"{name}_{axis}", float(value))
+    for name in (
+        "error_norm",
+        "distance",
+        "h_collision",
+        "h_overstretch",
+        "h_proximity",
+        "leader_drift",
+        "rows",
+        "slack_collision",
+        "slack_overstretch",
+        "slack_proximity",
+        "solve_time",
+        "computation_time",
+    ):
+        setattr(message, name, getattr(decision, name))
+    return message
+
+
+def to_twist(message, state, velocity):
+    """Write a velocity (3,) [m/s] that answers a state into a ``TwistStamped``."""
+    message.header = state.header
+    linear = message.twist.linear
+    linear.x, linear.y, linear.z = (float(value) for value in velocity)
+    return message
+
+
+def _reshaped(values, name, shape):
+    array = np.asarray(values)
+    if array.size != int(np.prod(shape)):
+        raise MessageError(f"{name}: {array.size} numbers, expected {' x '.join(map(str, shape))}")
+    return array.reshape(shape)

@@ -1,0 +1,55 @@
+"""What the package's rospy nodes have in common."""
+
+import sys
+
+import numpy as np
+import rospy
+
+from deformable_manipulation.scenario import ScenarioError, scenario_from_mapping
+
+# A state of a large fabric with its copies has some hundred kilobytes. rospy reads a socket into
+# a buffer of this size; a smaller one makes it fall behind.
+BUFFER_SIZE = 1 << 22  # bytes
+
+
+def start(name):
+    """Start a node and read the checked scenario.
+
+    Leaves the process with a message that says what to do if numpy or the scenario is unusable.
+
+    Returns:
+        :class:`~deformable_manipulation.scenario.spec.Scenario`
+    """
+    rospy.init_node(name)
+    _require_numpy()
+    if not rospy.has_param("scenario"):
+        refuse(
+            f"Parameter {rospy.resolve_name('scenario')} is missing: start with "
+            "launch/run.launch, which checks the scenario file and puts it there."
+        )
+    try:
+        return scenario_from_mapping(rospy.get_param("scenario"), ".")
+    except ScenarioError as error:
+        refuse(f"Parameter {rospy.resolve_name('scenario')} is not a correct scenario:\n{error}")
+
+
+def refuse(reason):
+    """Leave the process because it cannot work."""
+    rospy.logfatal(reason)
+    sys.exit(1)
+
+
+def _require_numpy():
+    """rospy.numpy_msg publishes arrays with a method that numpy 2.3 no longer has."""
+    if not hasattr(np.ndarray, "tostring"):
+        refuse(
+            f"numpy {np.__version__} does not work with this rospy: install the versions in "
+            "scripts/pip-requirements.txt (scripts/setup does)."
+        )
+
+
+def subscribe(topic, message_class, callback):
+    """Subscribe to the newest message of a topic without delay."""
+    return rospy.Subscriber(
+        topic, message_class, callback, queue_size=1, buff_size=BUFFER_SIZE, tcp_nodelay=True
+    )

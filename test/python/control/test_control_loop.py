@@ -1,0 +1,106 @@
+"""Closed loop on objects that follow their held points at once, one cycle of delay, 100 Hz."""
+
+import functools
+
+import control_builders as build
+import numpy as np
+import pytest
+from scipy.signal import butter, filtfilt
+
+from deformable_manipulation.control.controller import AssistantController
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.leader import LeaderController
+from deformable_manipulation.scenario.spec import OverstretchSpec
+
+GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
+FAR = build.HalfSpace((0.0, 0.0, 1.0), -9.0)
+# The leader sinks at up to 0.15 m/s, until the object would be 0.15 m in the ground, and moves on.
+DIVE = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (6.5, (0, 0.2, -0.5)), (9.0, (0, 0.4, -0.5)))
+
+
+class Run:
+    """Histories of a run: time first."""
+
+    def __init__(self, scenario, duration, obstacle=GROUND, sag=0.55, **settings):
+        assistants = [scenario.agents[i].name for i in scenario.assistants]
+        controllers = [AssistantController(scenario, name, **settings) for name in assistants]
+        leader = LeaderController(scenario)
+        body = build.hanging_chain(len(scenario.agents), sag)
+        positions = np.array([agent.start for agent in scenario.agents])
+        acting = np.zeros_like(positions)
+        states, decisions = [], []
+        for k in range(round(duration / scenario.cycle_time)):
+            time = k * scenario.cycle_time
+            observation = build.observe(time, positions, body, obstacle.at(time), cycle=k)
+            decided = [controller.update(observation) for controller in controllers]
+            states.append(positions)
+            decisions.append(decided)
+            commands = [leader.update(time, positions[0])] + [each.command for each in decided]
+            positions = positions + scenario.cycle_time * acting
+            acting = np.array(commands)
+        self.positions = np.array(states)
+        self.decisions = decisions
+
+    def all(self, field):
+        return np.array([[getattr(each, field) for each in row] for row in self.decisions])
+
+
+@functools.lru_cache(maxsize=None)
+def dive(assistants, feedforward=True, safety=True, duration=11.0):
+    return Run(build.scenario(assistants, DIVE, feedforward=feedforward), duration, safety=safety)
+
+
+@pytest.mark.parametrize("assistants", [1, 2, 3])
+def test_keeps_off_the_ground_while_the_leader_dives(assistants):
+    run = dive(assistants)
+    assert run.all("h_collision").min() >= -1e-3
+    assert run.all("h_overstretch").min() >= -1e-3
+    assert run.all("h_proximity").min() >= -1e-3
+    assert set(run.all("status").flat) <= {Status.NOMINAL, Status.CONSTRAINED}
+    # It comes near, and the leader alone stays clear of the ground.
+    assert run.all("h_collision").min() < 0.02
+    assert run.positions[:, 0, 2].min() > 0.3
+
+
+def test_the_object_hits_the_ground_without_the_filter():
+    assert dive(1, safety=False, duration=7.0).all("distance").min() < -0.04
+
+
+def test_leaving_the_leaders_velocity_out_breaks_the_offset():
+    assert dive(1, feedforward=False, duration=7.0).all("h_collision").min() < -2e-3
+
+
+@pytest.mark.parametrize("assistants", [1, 3])
+def test_commands_do_not_oscillate(assistants):
+    run = dive(assistants)
+    high_pass = butter(4, 1.0, "highpass", fs=100.0)  # Hz
+    for field in ("distance", "h_overstretch", "h_proximity"):
+        fast = filtfilt(*high_pass, run.all(field), axis=0)
+        assert np.sqrt(np.mean(fast**2)) < 2e-4
+    steps = np.diff(run.all("command"), axis=0)
+    assert np.abs(steps).max() <= 0.01 + 1e-9  # 1 m/s^2
+    flips = (steps[1:] * steps[:-1] < 0.0) & (np.abs(steps[1:]) > 1e-3)
+    assert flips.mean() < 0.01
+
+
+@pytest.mark.parametrize("assistants", [1, 2])
+def test_follows_without_error_far_from_obstacles(assistants):
+    across = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (4.5, (0.2, 0, 0.1)), (7.0, (0.1, 0.1, 0.1)))
+    errors = Run(build.scenario(assistants, across), 9.0, FAR).all("error_norm")
+    assert errors.max() < 5e-3
+    assert errors[-1].max() < 1e-3
+
+
+def test_gives_way_to_a_moving_obstacle():
+    rising = build.HalfSpace((0.0, 0.0, 1.0), 0.2, (0.0, 0.0, 0.03))
+    run = Run(build.scenario(1), 8.0, rising)
+    assert run.all("h_collision").min() >= -1e-3
+    assert run.positions[-1, 1, 2] > run.positions[0, 1, 2] + 0.05
+
+
+def test_a_formation_at_its_stretch_limit_moves_on():
+    apart = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (4.5, (0, -0.25, 0)))
+    scenario = build.scenario(2, apart, overstretch=OverstretchSpec(max_distance=1.501))
+    run = Run(scenario, 7.0, FAR)
+    assert run.all("h_overstretch").min() >= -1e-3
+    assert run.all("error_norm").max() < 5e-3

@@ -1,0 +1,232 @@
+import dataclasses
+
+import control_builders as build
+import numpy as np
+import pytest
+
+from deformable_manipulation.control.controller import AssistantController
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.scenario.spec import CollisionSpec
+
+DT = 0.01
+GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
+FAR = build.HalfSpace((0.0, 0.0, 1.0), -5.0)
+
+
+def starts(scenario):
+    return np.array([agent.start for agent in scenario.agents])
+
+
+@pytest.fixture
+def scenario():
+    return build.scenario()
+
+
+def observed(scenario, time=0.0, positions=None, obstacle=FAR, **settings):
+    positions = starts(scenario) if positions is None else positions
+    body = build.hanging_chain(len(positions), sag=0.3)
+    return build.observe(time, positions, body, obstacle, **settings)
+
+
+def test_rests_on_its_target(scenario):
+    decision = AssistantController(scenario, "assistant_1").update(observed(scenario))
+    assert decision.status == Status.NOMINAL
+    np.testing.assert_array_equal(decision.command, 0.0)
+    np.testing.assert_array_equal(decision.target, [0.0, 1.5, 1.0])
+    assert decision.error_norm == 0.0
+    assert decision.h_overstretch == pytest.approx(0.5)
+    assert decision.h_proximity == pytest.approx(1.3)
+    assert decision.distance == pytest.approx(5.7)
+    assert decision.h_collision == pytest.approx(5.65)
+    np.testing.assert_allclose(decision.jacobian, [0.0, 0.0, 0.5], atol=1e-12)
+
+
+def test_returns_to_its_target_within_its_limits(scenario):
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    first = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_allclose(first.nominal, [0.0, 0.5, 0.0], atol=1e-12)
+    np.testing.assert_allclose(first.command, [0.0, 0.01, 0.0], atol=1e-12)  # 1 m/s^2
+    for k in range(1, 40):
+        last = controller.update(observed(scenario, k * DT, positions))
+    np.testing.assert_allclose(last.command, [0.0, 0.15, 0.0], atol=1e-12)
+    assert last.status == Status.CONSTRAINED
+
+
+def test_the_nominal_law_looks_ahead_to_when_the_command_acts(scenario):
+    """Own point by the command that acts until then, leader by its measured velocity."""
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    first = controller.update(observed(scenario, 0.0, positions))
+    leader_velocity = np.array([0.0, 0.03, -0.05])
+    moved = positions + DT * np.array([leader_velocity, np.zeros(3)])
+    second = controller.update(observed(scenario, DT, moved))
+    error = second.error + DT * (leader_velocity - first.command)
+    np.testing.assert_allclose(second.nominal, error + leader_velocity, atol=1e-12)
+
+
+def test_takes_the_present_relative_position_as_reference(scenario):
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.1]]
+    controller = AssistantController(scenario, "assistant_1")
+    controller.take_reference(observed(scenario, 0.0, positions))
+    decision = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_array_equal(decision.target, positions[1])
+    np.testing.assert_array_equal(decision.command, 0.0)
+    controller.reset()
+    again = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_array_equal(again.target, [0.0, 1.5, 1.0])
+
+
+def test_refuses_a_reference_that_is_not_finite(scenario):
+    controller = AssistantController(scenario, "assistant_1")
+    with pytest.raises(ValueError, match="positions"):
+        controller.take_reference(observed(scenario, positions=np.full((2, 3), np.nan)))
+
+
+def test_disabled_sends_zero_and_still_measures(scenario):
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    controller.update(observed(scenario, 0.0, positions))
+    controller.enabled = False
+    decision = controller.update(observed(scenario, 0.0, positions))
+    assert decision.status == Status.DISABLED and not decision.enabled
+    np.testing.assert_array_equal(decision.command, 0.0)
+    assert decision.error_norm == pytest.approx(0.5)
+    controller.enabled = True
+    again = controller.update(observed(scenario, DT, positions))
+    np.testing.assert_allclose(again.command, [0.0, 0.01, 0.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("safety", [True, False])
+@pytest.mark.parametrize(
+    "field",
+    ["time", "positions", "points", "displacements", "distances.minimum", "distances.distance",
+     "distances.normal", "distances.weights", "distances.obstacle_velocity"],
+)
+def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, value, safety):
+    controller = AssistantController(scenario, "assistant_1", safety=safety)
+    observation = broken(observed(scenario), field, value)
+    decision = controller.update(observation)
+    assert decision.status == Status.WAITING
+    assert field in decision.text
+    np.testing.assert_array_equal(decision.command, 0.0)
+    after = controller.update(observed(scenario, DT))
+    assert after.status != Status.WAITING and np.isfinite(after.command).all()
+
+
+def broken(observation, field, value):
+    owner, _, name = field.rpartition(".")
+    part = observation.distances if owner else observation
+    if name == "time":
+        return dataclasses.replace(observation, time=value)
+    array = getattr(part, name).astype(float)
+    array.flat[-1] = value
+    changed = dataclasses.replace(part, **{name: array})
+    return dataclasses.replace(observation, distances=changed) if owner else changed
+
+
+@pytest.mark.parametrize(
+    "field, value",
+    [("positions", np.zeros((3, 3))), ("points", np.zeros((0, 2, 3))), ("ready", np.ones(2)),
+     ("displaced_agents", np.full(4, 7))],
+)
+def test_waits_for_input_of_the_right_shape(scenario, field, value):
+    observation = dataclasses.replace(observed(scenario), **{field: value})
+    decision = AssistantController(scenario, "assistant_1").update(observation)
+    assert decision.status == Status.WAITING and field in decision.text
+
+
+@pytest.mark.parametrize("safety", [True, False])
+def test_enormous_numbers_never_give_a_command_that_is_not_finite(scenario, safety):
+    controller = AssistantController(scenario, "assistant_1", safety=safety)
+    with np.errstate(all="ignore"):
+        for k, size in enumerate((0.0, 1e300, -1e308, 1e308, 1e-308)):
+            decision = controller.update(observed(scenario, k * DT, starts(scenario) + size))
+            assert np.isfinite(decision.command).all()
+            assert (np.abs(decision.command) <= 0.15).all()
+
+
+def test_waits_for_its_copies(scenario):
+    controller = AssistantController(scenario, "assistant_1")
+    moving = np.array([True, False, True, True])
+    decision = controller.update(observed(scenario, obstacle=GROUND, ready=moving))
+    assert decision.status == Status.WAITING and "assistant_1" in decision.text
+    ready = controller.update(observed(scenario, DT, obstacle=GROUND))
+    assert ready.status == Status.NOMINAL
+    held = controller.update(observed(scenario, 2 * DT, obstacle=GROUND, ready=moving))
+    assert held.status == Status.NOMINAL
+    np.testing.assert_allclose(held.jacobian, ready.jacobian)
+
+
+def test_needs_no_copies_without_obstacles(scenario):
+    none = (np.array([-1]), np.zeros((1, 3)))
+    decision = AssistantController(scenario, "assistant_1").update(
+        observed(scenario, obstacle=None, copies=none)
+    )
+    assert decision.status == Status.NOMINAL
+    assert decision.distance == np.inf and decision.rows == 2
+
+
+def test_a_state_is_answered_once(scenario):
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    controller.update(observed(scenario, 0.0, positions))
+    second = controller.update(observed(scenario, DT, positions))
+    assert controller.update(observed(scenario, DT, positions)) is second
+    assert controller.update(observed(scenario, 0.0, positions)) is second
+    third = controller.update(observed(scenario, 2 * DT, positions))
+    np.testing.assert_allclose(third.command, [0.0, 0.03, 0.0], atol=1e-12)
+
+
+def test_time_set_back_starts_afresh(scenario):
+    controller = AssistantController(scenario, "assistant_1")
+    controller.update(observed(scenario, 10.0))
+    moved = starts(scenario) + [1.0, 0.0, 0.0]
+    decision = controller.update(observed(scenario, 0.0, moved))
+    assert decision.status == Status.NOMINAL
+    np.testing.assert_array_equal(decision.nominal, 0.0)  # no velocity out of the jump
+
+
+def test_the_reference_outlives_time_set_back(scenario):
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    controller.take_reference(observed(scenario, 0.0, positions))
+    controller.update(observed(scenario, 10.0, positions))
+    decision = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_array_equal(decision.target, positions[1])
+
+
+def test_without_safety_the_nominal_velocity_passes_within_its_limits(scenario):
+    positions = starts(scenario) * [1.0, 1.0, 0.1]  # the object is in the ground
+    controller = AssistantController(scenario, "assistant_1", safety=False)
+    decision = controller.update(observed(scenario, 0.0, positions, GROUND))
+    assert decision.status == Status.UNSAFE_FILTER_OFF
+    assert decision.h_collision < 0.0
+    np.testing.assert_array_equal(decision.command, 0.0)
+    guarded = AssistantController(scenario, "assistant_1")
+    lifted = guarded.update(observed(scenario, 0.0, positions, GROUND))
+    assert lifted.command[2] == pytest.approx(0.01)
+    assert lifted.status == Status.RELAXED and "collision by" in lifted.text
+
+
+def test_the_single_row_of_the_paper():
+    scenario = build.scenario(collision=CollisionSpec(offset=0.05, gradient="minimum"))
+    observation = observed(scenario, obstacle=GROUND)
+    decision = AssistantController(scenario, "assistant_1").update(observation)
+    assert decision.rows == 3
+    copies, minimum = observation.displaced_agents == 1, observation.distances.minimum
+    np.testing.assert_allclose(decision.jacobian, (minimum[copies] - minimum[0]) / 0.1)
+
+
+def test_unknown_agents_are_refused(scenario):
+    for name in ("leader", "assistant_7"):
+        with pytest.raises(ValueError, match=f"agent: '{name}'.*assistant_1"):
+            AssistantController(scenario, name)
+
+
+def test_statuses_are_those_of_the_message_and_have_a_sentence():
+    assert [status.name for status in sorted(Status)] == [
+        "NOMINAL", "CONSTRAINED", "RELAXED", "FAILED", "WAITING", "DISABLED", "UNSAFE_FILTER_OFF"
+    ]
+    assert len({status.sentence for status in Status}) == len(Status)

@@ -1,0 +1,292 @@
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linprog, minimize
+
+from deformable_manipulation.control.barriers import Rows, Tier
+from deformable_manipulation.control.quadratic_program import find_solver, solve_with_qpsolvers
+from deformable_manipulation.control.safety_filter import TOLERANCE, SafetyFilter
+from deformable_manipulation.control.status import Status
+
+LIMIT = 0.15
+LOWER, UPPER = np.full(3, -LIMIT), np.full(3, LIMIT)
+
+
+def rows(tier, coefficients, bounds):
+    return Rows(tier, np.atleast_2d(np.array(coefficients, dtype=float)),
+                np.atleast_1d(np.array(bounds, dtype=float)))
+
+
+def random_problem(generator, spread):
+    """Nominal velocity and rows of all tiers; the larger the spread, the fewer are feasible."""
+    parts = []
+    for tier in Tier:
+        count = generator.integers(1, 4)
+        coefficients = generator.normal(size=(count, 3))
+        coefficients /= np.linalg.norm(coefficients, axis=1)[:, None]
+        parts.append(Rows(tier, coefficients, generator.uniform(-0.1, spread, size=count)))
+    return generator.uniform(-0.3, 0.3, size=3), parts
+
+
+def stacked(parts):
+    return (np.concatenate([part.coefficients for part in parts]),
+            np.concatenate([part.bounds for part in parts]))
+
+
+def by_enumeration(weights, nominal, A, b):
+    """Optimum over every choice of active constraints that satisfies the KKT conditions."""
+    A = np.concatenate((A, np.eye(3), -np.eye(3)))
+    b = np.concatenate((b, LOWER, -UPPER))
+    inverse = np.diag(1.0 / weights**2)
+    best, least = None, np.inf
+    for count in range(4):
+        for active in itertools.combinations(range(len(b)), count):
+            N = A[list(active)]
+            gram = N @ inverse @ N.T
+            if count and np.linalg.cond(gram) > 1e12:
+                continue
+            multipliers = np.linalg.solve(gram, b[list(active)] - N @ nominal) if count else []
+            u = nominal + inverse @ N.T @ multipliers if count else nominal
+            cost = np.sum((weights * (u - nominal)) ** 2)
+            if (A @ u >= b - 1e-9).all() and cost < least:
+                best, least = u, cost
+    return best
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_optimum_of_random_problems(seed):
+    generator = np.random.default_rng(seed)
+    weights = generator.uniform(0.5, 2.0, size=3)
+    nominal, parts = random_problem(generator, spread=0.06)
+    result = SafetyFilter(weights).filter(nominal, parts, LOWER, UPPER)
+    reference = by_enumeration(weights, nominal, *stacked(parts))
+    if reference is None:
+        assert result.status == Status.RELAXED
+    else:
+        assert result.status in (Status.NOMINAL, Status.CONSTRAINED)
+        np.testing.assert_allclose(result.velocity, reference, atol=1e-7)
+        np.testing.assert_array_equal(result.slack, 0.0)
+
+
+def infeasible_problems(count, spread=0.25):
+    generator = np.random.default_rng(17)
+    while count:
+        nominal, parts = random_problem(generator, spread)
+        if by_enumeration(np.ones(3), nominal, *stacked(parts)) is None:
+            count -= 1
+            yield nominal, parts
+
+
+def missing(part, velocity):
+    """Largest amount by which rows are missed, beyond what no velocity in the bounds reaches."""
+    reachable = np.minimum(part.bounds, np.abs(part.coefficients) @ UPPER)
+    return max(0.0, (reachable - part.coefficients @ velocity).max())
+
+
+def by_priority(parts):
+    """Least slack of each tier, one linear program after the other (strictly lexicographic)."""
+    A, b, slack = np.empty((0, 3)), np.empty(0), []
+    for part in parts:
+        reachable = np.minimum(part.bounds, np.abs(part.coefficients) @ UPPER)
+        with_slack = np.column_stack((part.coefficients, np.ones(len(reachable))))
+        fixed = np.column_stack((A, np.zeros(len(b))))
+        solution = linprog(
+            (0.0, 0.0, 0.0, 1.0),
+            A_ub=-np.concatenate((fixed, with_slack)),
+            b_ub=-np.concatenate((b, reachable)),
+            bounds=[(-LIMIT, LIMIT)] * 3 + [(0.0, None)],
+        )
+        slack.append(solution.fun)
+        A = np.concatenate((A, part.coefficients))
+        b = np.concatenate((b, reachable - solution.fun - 1e-9))
+    return slack
+
+
+def test_priority_of_random_infeasible_problems():
+    """As strict as a factor of 100 between the tiers allows: nearly always lexicographic."""
+    safety, exact, problems = SafetyFilter(np.ones(3)), 0, 60
+    for nominal, parts in infeasible_problems(problems):
+        result = safety.filter(nominal, parts, LOWER, UPPER)
+        assert result.status == Status.RELAXED
+        lost = np.array([missing(part, result.velocity) for part in parts]) - by_priority(parts)
+        # Against the lexicographic solution no more can be won than by tracking at its steepest,
+        # over the widest change of each component.
+        assert lost @ (1e6, 1e4, 1e2) <= 3 * 2 * LIMIT
+        exact += np.abs(lost).max() < 1e-5
+        for part in parts:
+            short = max(0.0, (part.bounds - part.coefficients @ result.velocity).max())
+            assert result.slack[part.tier] == pytest.approx(short, abs=TOLERANCE)
+    assert exact >= 0.95 * problems
+
+
+@pytest.mark.parametrize("weights", [(1.0, 1.0, 1.0), (1.0, 0.1, 10.0)])
+@pytest.mark.parametrize("scale", [1.0, 1e3])
+def test_badly_scaled_rows_and_far_nominal_velocities_are_solved(weights, scale):
+    generator, safety = np.random.default_rng(21), SafetyFilter(weights)
+    for _ in range(100):
+        nominal, parts = random_problem(generator, 0.25)
+        parts = [
+            Rows(p.tier, p.coefficients * 10.0 ** generator.uniform(-5, 1, (len(p.bounds), 1)),
+                 p.bounds) for p in parts
+        ]
+        centre = generator.uniform(-0.14, 0.14, 3)
+        result = safety.filter(scale * nominal, parts, centre - 0.01, centre + 0.01)
+        assert result.status != Status.FAILED
+
+
+def nearest(nominal, start, A, b):
+    """Least squared departure from the nominal velocity subject to A u >= b and the bounds."""
+    return minimize(
+        lambda u: 0.5 * np.sum((u - nominal) ** 2),
+        start,
+        jac=lambda u: u - nominal,
+        method="SLSQP",
+        bounds=[(-LIMIT, LIMIT)] * 3,
+        constraints={"type": "ineq", "fun": lambda u: A @ u - b, "jac": lambda u: A},
+    ).fun
+
+
+def test_tracks_as_well_as_the_relaxed_constraints_allow():
+    safety = SafetyFilter(np.ones(3))
+    for nominal, parts in infeasible_problems(10):
+        result = safety.filter(nominal, parts, LOWER, UPPER)
+        A, b = stacked(parts)
+        slack = np.repeat([missing(part, result.velocity) for part in parts],
+                          [len(part.bounds) for part in parts])
+        limits = np.minimum(b, np.abs(A) @ UPPER) - slack - 1e-9
+        cost = 0.5 * np.sum((result.velocity - nominal) ** 2)
+        assert cost <= nearest(nominal, result.velocity, A, limits) + 1e-6
+
+
+def test_collision_outranks_overstretch_outranks_proximity():
+    forward, back = [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]
+    safety = SafetyFilter(np.ones(3))
+    for high, low in itertools.combinations(Tier, 2):
+        parts = [rows(low, back, 0.05), rows(high, forward, 0.1)]
+        result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
+        np.testing.assert_allclose(result.velocity, [0.1, 0.0, 0.0], atol=1e-8)
+        assert result.slack[low] == pytest.approx(0.15)
+        assert result.slack[high] == 0.0
+
+
+def test_the_worst_row_of_a_tier_is_relieved_as_far_as_possible():
+    parts = [rows(Tier.COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
+    result = SafetyFilter(np.ones(3)).filter(np.zeros(3), parts, LOWER, UPPER)
+    np.testing.assert_allclose(result.velocity, [0.04, 0.0, 0.0], atol=1e-8)
+    assert result.slack[Tier.COLLISION] == pytest.approx(0.06)
+
+
+@pytest.mark.parametrize("hopeless", [[0.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [5e-4, 0.0, -4e-4]])
+def test_a_row_beyond_the_agents_influence_does_not_hamper_the_others(hopeless):
+    nominal = np.array([0.1, 0.0, -0.1])
+    helpful = rows(Tier.COLLISION, [0.0, 0.0, 1.0], -0.03)
+    safety = SafetyFilter(np.ones(3))
+    alone = safety.filter(nominal, [helpful], LOWER, UPPER)
+    both = safety.filter(nominal, [rows(Tier.COLLISION, hopeless, 0.4), helpful], LOWER, UPPER)
+    np.testing.assert_allclose(both.velocity, alone.velocity, atol=1e-8)
+    assert both.status == Status.RELAXED
+    assert both.slack[Tier.COLLISION] == pytest.approx(0.4, abs=1e-3)
+
+
+def test_a_row_out_of_reach_takes_all_it_can_get():
+    parts = [rows(Tier.COLLISION, [0.0, 0.0, 0.5], 2.0)]
+    result = SafetyFilter(np.ones(3)).filter(np.array([0.1, 0.0, 0.0]), parts, LOWER, UPPER)
+    np.testing.assert_allclose(result.velocity, [0.1, 0.0, LIMIT], atol=1e-8)
+    assert result.slack[Tier.COLLISION] == pytest.approx(2.0 - 0.5 * LIMIT)
+
+
+finite = st.floats(-1e3, 1e3)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.lists(st.tuples(st.sampled_from(list(Tier)), finite, finite, finite, finite), max_size=12),
+    st.tuples(finite, finite, finite),
+    st.tuples(st.floats(0.0, LIMIT), st.floats(0.0, LIMIT), st.floats(0.0, LIMIT)),
+)
+def test_bounds_always_hold(parts, nominal, half):
+    parts = [rows(tier, [x, y, z], b) for tier, x, y, z, b in parts]
+    upper = np.array(half)
+    result = SafetyFilter(np.ones(3)).filter(np.array(nominal), parts, -upper, upper)
+    assert np.isfinite(result.velocity).all()
+    assert (np.abs(result.velocity) <= upper).all()
+    if result.status in (Status.NOMINAL, Status.CONSTRAINED):
+        for part in parts:
+            assert (part.coefficients @ result.velocity >= part.bounds - 1e-5).all()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", ["nominal", "coefficients", "bounds", "lower", "upper"])
+def test_what_is_not_finite_gives_zero(value, place):
+    given = {
+        "nominal": np.array([0.1, 0.0, 0.0]),
+        "coefficients": np.eye(3),
+        "bounds": np.zeros(3),
+        "lower": LOWER.copy(),
+        "upper": UPPER.copy(),
+    }
+    given[place].flat[1] = value
+    parts = [Rows(Tier.COLLISION, given["coefficients"], given["bounds"])]
+    with np.errstate(invalid="ignore"):
+        result = SafetyFilter(np.ones(3)).filter(
+            given["nominal"], parts, given["lower"], given["upper"]
+        )
+    assert result.status == Status.FAILED
+    np.testing.assert_array_equal(result.velocity, 0.0)
+
+
+@pytest.mark.parametrize(
+    "answer", [None, np.full(6, np.nan), np.full(6, 0.2), np.array([0.0, 0.0, 0.0, 0, 0, 0])]
+)
+def test_an_invalid_answer_of_the_solver_is_never_a_command(answer):
+    safety = SafetyFilter(np.ones(3))
+    safety._solve = lambda P, q, A, b: None if answer is None else answer[: len(q)]
+    parts = [rows(Tier.COLLISION, [1.0, 0.0, 0.0], 0.1)]
+    result = safety.filter(np.array([0.05, 0.0, 0.0]), parts, LOWER, UPPER)
+    assert result.status == Status.FAILED
+    np.testing.assert_array_equal(result.velocity, 0.0)
+
+
+def test_falls_back_on_the_relaxed_program_where_the_solver_fails_on_the_hard_one():
+    safety = SafetyFilter(np.ones(3))
+    solve = safety._solve
+    safety._solve = lambda P, q, A, b: None if len(q) == 3 else solve(P, q, A, b)
+    parts = [rows(Tier.COLLISION, [1.0, 0.0, 0.0], 0.1)]
+    result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
+    np.testing.assert_allclose(result.velocity, [0.1, 0.0, 0.0], atol=1e-8)
+    assert result.status == Status.CONSTRAINED
+
+
+def test_nominal_passes_where_nothing_is_in_the_way():
+    result = SafetyFilter(np.ones(3)).filter(np.array([0.1, 0.0, 0.0]), [], LOWER, UPPER)
+    assert result.status == Status.NOMINAL
+    np.testing.assert_array_equal(result.velocity, [0.1, 0.0, 0.0])
+    clipped = SafetyFilter(np.ones(3)).filter(np.array([0.4, 0.0, 0.0]), [], LOWER, UPPER)
+    assert clipped.status == Status.CONSTRAINED
+    np.testing.assert_array_equal(clipped.velocity, [LIMIT, 0.0, 0.0])
+
+
+def test_quadprog_gives_the_same_directly_and_through_qpsolvers():
+    generator = np.random.default_rng(4)
+    direct = find_solver("quadprog")
+    for _ in range(20):
+        nominal, parts = random_problem(generator, 0.1)
+        problem = (np.eye(3), -nominal) + stacked(parts)
+        ours, theirs = direct(*problem), solve_with_qpsolvers("quadprog", *problem)
+        assert (ours is None) == (theirs is None)
+        if ours is not None:
+            np.testing.assert_allclose(ours, theirs, atol=1e-10)
+
+
+def test_unknown_solver_names_those_installed():
+    with pytest.raises(ValueError, match="controller.solver: 'simplex'.*quadprog"):
+        SafetyFilter(np.ones(3), "simplex")
+
+
+@pytest.mark.parametrize("weights", [(1.0, 0.0, 1.0), (1.0, np.nan, 1.0), (1.0, 1.0)])
+def test_weights_have_to_be_positive(weights):
+    with pytest.raises(ValueError, match="controller.weights"):
+        SafetyFilter(weights)

@@ -1,0 +1,167 @@
+"""Properties on random polygons and polylines."""
+
+import numpy as np
+import planar_reference as reference
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from planar_reference import HILLS, SQUARE, arc_length, compute, in_plane, obstacle
+from scipy.spatial.transform import Rotation
+
+from deformable_manipulation.distance.planar import PlanarMinimumDistance
+
+SAMPLES = 2001
+COMB = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.8, 1.0), (0.8, 0.2), (0.6, 0.2), (0.6, 1.0),
+        (0.4, 1.0), (0.4, 0.5), (0.0, 0.5))
+MANY = settings(max_examples=60, deadline=None)
+seeds = st.integers(0, 2**32 - 1)
+selections = st.sampled_from(["local", "segments"])
+
+
+def random_ring(rng):
+    """Convex or not, of either orientation; some on a grid, as some lines are, so that they touch.
+    """
+    if rng.random() < 0.3:
+        ring = np.array((SQUARE, HILLS, COMB)[rng.integers(3)])
+    else:
+        ring = star(rng)
+    return ring if rng.random() < 0.5 else ring[::-1]
+
+
+def star(rng):
+    """A ring seen whole from the origin."""
+    count = rng.integers(3, 30)
+    angles = 2.0 * np.pi * (np.arange(count) + rng.uniform(0.0, 0.9, count)) / count
+    radii = rng.uniform(0.3, 1.5, count) if rng.random() < 0.7 else np.ones(count)
+    return radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
+
+
+def wanderer(rng, copies=None):
+    """A polyline with few or many points, in, near and around the ring."""
+    shape = (rng.integers(2, 14), 2) if copies is None else (copies, rng.integers(2, 14), 2)
+    steps = rng.uniform(0.02, 0.6) * rng.standard_normal(shape)
+    line = rng.uniform(-1.5, 1.5, 2) + np.cumsum(steps, axis=-2)
+    return np.round(line, 1) if rng.random() < 0.3 else line  # rounded: repeated, parallel
+
+
+@MANY
+@given(seed=seeds, features=selections)
+def test_minimum_against_dense_sampling(seed, features):
+    rng = np.random.default_rng(seed)
+    ring, line = random_ring(rng), wanderer(rng)
+    result = compute(ring, line, radius=0.01, features=features)
+    low, high = reference.bounds_of_minimum(ring, line, SAMPLES)
+    assert low - 1e-9 <= result.minimum[0] + 0.01 <= high + 1e-9
+
+
+@MANY
+@given(seed=seeds, features=selections)
+def test_features_are_consistent(seed, features):
+    rng = np.random.default_rng(seed)
+    ring, line = random_ring(rng), wanderer(rng)
+    result = compute(ring, line, radius=0.01, band=0.2, features=features)
+    points = in_plane(line)
+    assert result.minimum[0] == result.distance[0]
+    assert (np.diff(result.distance) >= 0.0).all()
+    assert (result.distance <= result.minimum[0] + 0.2 + 1e-9).all()
+    assert result.weights.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
+    material = np.einsum("mk,mki->mi", result.weights, points[result.vertices])
+    assert result.object_point == pytest.approx(material, abs=1e-12)
+    assert np.linalg.norm(result.normal, axis=1) == pytest.approx(1.0, abs=1e-9)
+    expected = reference.signed_distances(ring, result.object_point[:, :2])
+    assert result.distance == pytest.approx(expected - 0.01, abs=1e-9)
+    arm = result.object_point - result.obstacle_point
+    assert arm == pytest.approx(expected[:, None] * result.normal, abs=1e-8)
+    on_boundary = reference.signed_distances(ring, result.obstacle_point[:, :2])
+    assert on_boundary == pytest.approx(0.0, abs=1e-9)
+
+
+@MANY
+@given(seed=seeds)
+def test_local_features_are_the_sampled_local_minima(seed):
+    rng = np.random.default_rng(seed)
+    ring, line = random_ring(rng), wanderer(rng)
+    band = 0.25
+    result = compute(ring, line, band=band)
+    points, places = reference.sample(line, SAMPLES)
+    step = np.diff(places).max(initial=0.0)
+    values = reference.signed_distances(ring, points)
+    found = np.array([arc_length(line, result, row) for row in range(len(result.distance))])
+    for place, value in zip(found, result.distance):  # each is a local minimum
+        around = reference.at_arc_lengths(line, place + 1e-5 * np.linspace(-1.0, 1.0, 21))
+        assert reference.signed_distances(ring, around).min() >= value - 1e-9
+    middles, lowest = reference.sampled_local_minima(places, values)
+    for place, value in zip(middles, lowest):  # none is missed
+        if value < result.minimum[0] + band - step:
+            level = np.abs(result.distance - value) <= step + 1e-9
+            assert np.abs(found[level] - place).min(initial=np.inf) <= 2.5 * step + 1e-9
+    order = np.argsort(found)
+    for one, other in zip(order, order[1:]):  # none is there twice
+        between = np.linspace(found[one], found[other], 101)
+        between[[1, -2]] = found[one] + 1e-5, found[other] - 1e-5
+        highest = reference.signed_distances(ring, reference.at_arc_lengths(line, between)).max()
+        assert highest > max(result.distance[one], result.distance[other]) + 1e-14
+
+
+@MANY
+@given(seed=seeds)
+def test_segments_in_the_band_are_all_there(seed):
+    rng = np.random.default_rng(seed)
+    ring, line = random_ring(rng), wanderer(rng)
+    result = compute(ring, line, band=0.2, features="segments")
+    found = dict(zip(result.vertices[:, 0].tolist(), result.distance))
+    assert len(found) == len(result.distance)
+    for segment in range(len(line) - 1):
+        low, high = reference.bounds_of_minimum(ring, line[segment : segment + 2], 501)
+        if high <= result.minimum[0] + 0.2:
+            assert low - 1e-9 <= found[segment] <= high + 1e-9
+        elif low > result.minimum[0] + 0.2:
+            assert segment not in found
+
+
+@MANY
+@given(seed=seeds, features=selections, copies=st.integers(1, 13))
+def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies):
+    rng = np.random.default_rng(seed)
+    obstacles = [obstacle(random_ring(rng)), obstacle(random_ring(rng), translation=(0.4, 0.2, 0.0))]
+    points = in_plane(wanderer(rng, copies))
+    points += np.append(rng.uniform(-2.0, 2.0, 2), 0.0)
+    calculator = PlanarMinimumDistance(obstacles, 0.01, 0.1, features)
+    calculator.compute(3.0 * points[::-1])
+    together = calculator.compute(points)
+    for copy in range(copies):
+        fresh = PlanarMinimumDistance(obstacles, 0.01, 0.1, features)
+        alone = fresh.compute(points[copy : copy + 1])
+        assert together.minimum[copy] == pytest.approx(alone.minimum[0], abs=1e-9)
+        first = together.of_copy(copy).start
+        assert together.minimum[copy] == together.distance[first]
+        if copy:
+            assert together.offsets[copy + 1] - together.offsets[copy] == 1
+        else:
+            assert together.distance[together.of_copy(0)] == pytest.approx(
+                alone.distance, abs=1e-9
+            )
+
+
+@MANY
+@given(seed=seeds, features=selections, plane=st.sampled_from(["xy", "yz", "xz"]))
+def test_moving_everything_rigidly_changes_no_distance(seed, features, plane):
+    rng = np.random.default_rng(seed)
+    ring, line = random_ring(rng), in_plane(wanderer(rng))
+    plain = PlanarMinimumDistance([obstacle(ring)], 0.01, 0.1, features).compute(line[None])
+
+    rotation, translation = Rotation.random(random_state=seed), rng.uniform(-3.0, 3.0, 3)
+    turned = obstacle(ring, plane, tuple(translation), tuple(rotation.as_quat()))
+    order = {"xy": [0, 1, 2], "yz": [2, 0, 1], "xz": [0, 2, 1]}[plane]
+
+    def moved(points):
+        return rotation.apply(points[..., order]) + translation
+
+    result = PlanarMinimumDistance([turned], 0.01, 0.1, features).compute(moved(line)[None])
+    assert result.minimum == pytest.approx(plain.minimum, abs=1e-9)
+    assert result.distance == pytest.approx(plain.distance, abs=1e-9)
+    first = result.object_point[0] - result.obstacle_point[0]
+    assert first @ result.normal[0] == pytest.approx(result.distance[0] + 0.01, abs=1e-9)
+    along_normal = rotation.apply(np.eye(3)[{"xy": 2, "yz": 0, "xz": 1}[plane]])
+    assert first @ along_normal == pytest.approx(0.0, abs=1e-9)
+    assert result.normal @ along_normal == pytest.approx(0.0, abs=1e-9)
