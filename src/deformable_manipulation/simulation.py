@@ -27,14 +27,18 @@ def make_body(scenario: Scenario) -> _pbd.Body:
 
 
 def perturbations(scenario: Scenario):
-    """Displacements (agent index, (3,) [m]) of the copies: one per assistant and axis (paper,
-    section V)."""
+    """Displacements (agent index, (3,) [m]) of the copies (paper, section V).
+
+    Per assistant and axis one for forward differences, two for central ones.
+    """
+    sides = (1.0, -1.0) if scenario.controller.differences == "central" else (1.0,)
     displaced = []
     for agent in scenario.assistants:
         for axis, distance in enumerate(scenario.controller.perturbation):
-            displacement = [0.0, 0.0, 0.0]
-            displacement[axis] = distance
-            displaced.append((agent, displacement))
+            for side in sides:
+                displacement = [0.0, 0.0, 0.0]
+                displacement[axis] = side * distance
+                displaced.append((agent, displacement))
     return displaced
 
 

@@ -130,20 +130,31 @@ pbd::RodParameters readRod(const Section& object, const Section& simulation) {
   return rod;
 }
 
-void readAgents(const Section& section, const pbd::Vector3& displacement, SimulatorScenario& scenario) {
+//! Per assistant and axis a copy on one side, or one on each.
+void addPerturbations(const Section& controller, SimulatorScenario& scenario) {
+  const pbd::Vector3 size = controller.vector<3>("perturbation");
+  const bool central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
+  for (std::size_t agent = 0; agent < scenario.agents.size(); ++agent) {
+    for (int axis = 0; scenario.is_assistant[agent] && axis < 3; ++axis) {
+      const pbd::Vector3 displacement = size[axis] * pbd::Vector3::Unit(axis);
+      scenario.perturbations.push_back({static_cast<int>(agent), displacement});
+      if (central) {
+        scenario.perturbations.push_back({static_cast<int>(agent), -displacement});
+      }
+    }
+  }
+}
+
+void readAgents(const Section& section, SimulatorScenario& scenario) {
   const Section agents = section.section("agents");
   for (const std::string& name : agents.keys()) {
     const Section agent = agents.section(name);
-    const int index = static_cast<int>(scenario.agents.size());
     const bool assistant = agent.choice<bool>("role", {{"leader", false}, {"assistant", true}});
     scenario.agents.push_back(
         {name, agent.integer("particle"),
          agent.choice<pbd::Hold>("hold", {{"clamped", pbd::Hold::CLAMPED}, {"pinned", pbd::Hold::PINNED}}),
          agent.pose("start", "orientation")});
     scenario.is_assistant.push_back(assistant);
-    for (int axis = 0; assistant && axis < 3; ++axis) {
-      scenario.perturbations.push_back({index, displacement[axis] * pbd::Vector3::Unit(axis)});
-    }
   }
 }
 
@@ -158,7 +169,8 @@ SimulatorScenario readScenario(const XmlRpcValue& value) {
   scenario.name = root.text("name");
   scenario.frame = root.text("frame");
   scenario.rod = readRod(root.section("object"), simulation);
-  readAgents(root, controller.vector<3>("perturbation"), scenario);
+  readAgents(root, scenario);
+  addPerturbations(controller, scenario);
   scenario.clock.time_step = simulation.number("time_step");
   scenario.clock.substeps = simulation.integer("substeps");
   scenario.duration = simulation.number("duration");
