@@ -107,5 +107,5 @@ class ClosedLoop:
 def make_minimum_distance(scenario: Scenario) -> PlanarMinimumDistance:
     """The distance computation for a scenario's object and obstacles."""
     return PlanarMinimumDistance(
-        scenario.obstacles, scenario.object.radius, scenario.controller.collision.band
+        scenario.obstacles, scenario.object.radius, scenario.controller.collision.band, "segments"
     )
