@@ -27,17 +27,11 @@ def obstacle_markers(obstacles, frame, half_width=0.25):
 
 
 def _prism(obstacle, half_width):
-    """Corners (3 T, 3) [m] of the triangles of an obstacle's piece."""
+    """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards for the light."""
     plane = PlaneFrame(obstacle.plane, obstacle.translation, obstacle.rotation, np.zeros(2))
-    ring = np.array(obstacle.points)
-    caps = np.concatenate(
-        [
-            shapely.get_coordinates(triangle)[:3]
-            for triangle in shapely.get_parts(
-                shapely.constrained_delaunay_triangles(shapely.Polygon(ring))
-            )
-        ]
-    )
+    polygon = shapely.geometry.polygon.orient(shapely.Polygon(obstacle.points))
+    ring = shapely.get_coordinates(polygon)[:-1]
+    caps = _triangles(polygon)
     u, v = plane.lift(np.eye(2))
     across = half_width * np.cross(u, v)
 
@@ -47,7 +41,14 @@ def _prism(obstacle, half_width):
     near, far = lifted(ring) - across, lifted(ring) + across
     next_near, next_far = np.roll(near, -1, axis=0), np.roll(far, -1, axis=0)
     sides = np.stack((near, next_near, far, far, next_near, next_far), axis=1).reshape(-1, 3)
-    return np.concatenate((lifted(caps) - across, lifted(caps) + across, sides))
+    return np.concatenate((lifted(caps[::-1]) - across, lifted(caps) + across, sides))
+
+
+def _triangles(polygon):
+    """Corners (3 T, 2) of triangles that make up a polygon, counterclockwise."""
+    triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))
+    counterclockwise = [shapely.geometry.polygon.orient(triangle) for triangle in triangles]
+    return np.concatenate([shapely.get_coordinates(each)[:3] for each in counterclockwise])
 
 
 def distance_markers(distances, frame, stamp):
