@@ -27,14 +27,6 @@ void requirePose(const Pose& pose) {
   }
 }
 
-Quaternion turned(const Quaternion& orientation, const Vector3& rotation) {
-  const double angle = rotation.norm();
-  if (angle == 0.0) {
-    return orientation;
-  }
-  return (Quaternion(Eigen::AngleAxisd(angle, rotation / angle)) * orientation).normalized();
-}
-
 }  // namespace
 
 bool PerturbedCopy::ready() const { return resting >= kRestUntilReady; }
@@ -48,7 +40,7 @@ void Body::requireParticle(int particle) const {
 
 void Body::hold(int particle, Hold type) {
   requireParticle(particle);
-  hold(particle, type, particlePose(particle));
+  hold(particle, type, pose(particle));
 }
 
 void Body::hold(int particle, Hold type, const Pose& pose) {
@@ -170,8 +162,7 @@ Vector3 Body::heldPosition(const HeldPoint& held, int copy) const {
 
 void Body::advanceHolds(double h) {
   for (HeldPoint& held : holds_) {
-    held.pose.position += h * held.twist.linear;
-    held.pose.orientation = turned(held.pose.orientation, h * held.twist.angular);
+    held.pose = moved(held.pose, held.twist, h);
   }
 }
 

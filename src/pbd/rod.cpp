@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "deformable_manipulation/pbd/errors.h"
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
@@ -98,11 +99,21 @@ Rod::~Rod() = default;
 
 std::unique_ptr<Body> Rod::clone() const { return std::unique_ptr<Body>(new Rod(*this)); }
 
-void Rod::setMaterial(double young_modulus, double torsion_modulus, double damping) {
+void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
   RodParameters changed = parameters_;
-  changed.young_modulus = young_modulus;
-  changed.torsion_modulus = torsion_modulus;
-  changed.damping = damping;
+  ParameterCheck known;
+  for (const MaterialParameter& parameter : parameters) {
+    if (parameter.key == "young_modulus") {
+      changed.young_modulus = parameter.value;
+    } else if (parameter.key == "torsion_modulus") {
+      changed.torsion_modulus = parameter.value;
+    } else if (parameter.key == "damping") {
+      changed.damping = parameter.value;
+    } else {
+      known.require(false, parameter.key, parameter.value, "young_modulus, torsion_modulus or damping");
+    }
+  }
+  known.throwIfAny();
   changed.check();
   parameters_ = changed;
 }
@@ -113,7 +124,8 @@ double Rod::freeLength(int particle, int other) const {
   return std::abs(particle - other) * parameters_.segmentLength();
 }
 
-Pose Rod::particlePose(int particle) const {
+Pose Rod::pose(int particle) const {
+  requireParticle(particle);
   return {read3(state_->groups[0].position, particle, 0), read4(state_->groups[0].orientation, particle, 0)};
 }
 

@@ -41,78 +41,148 @@ void Clock::check() const {
 
 Simulation::Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents,
                        const std::vector<Perturbation>& perturbations, const Clock& clock)
-    : agents_(std::move(agents)), clock_(clock), body_(std::move(body)), twists_(agents_.size()) {
+    : agents_(std::move(agents)), clock_(clock), body_(std::move(body)) {
   clock_.check();
   ParameterCheck check;
   requireAgents(*body_, agents_, check);
   check.throwIfAny();
   for (const Agent& agent : agents_) {
     body_->hold(agent.particle, agent.hold, agent.start);
+    states_.push_back({agent.particle, agent.start, Twist(), Twist(), {}});
   }
   body_->layOut();
   for (const Perturbation& perturbation : perturbations) {
     addPerturbation(perturbation);
   }
+  settle();
+  start_body_ = body_->clone();
+  start_states_ = states_;
+}
+
+void Simulation::settle() {
   SettleOptions options;
   options.time_step = clock_.time_step;
   options.substeps = clock_.substeps;
   settled_ = body_->settle(options);
-  start_ = body_->clone();
 }
 
-const Agent& Simulation::agent(int index) const { return agents_.at(static_cast<std::size_t>(index)); }
-
-void Simulation::setCommand(int index, const Twist& twist) { body_->setTwist(agent(index).particle, twist); }
+void Simulation::setCommand(int agent, const Twist& twist) {
+  if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
+    throw std::invalid_argument("the velocity of agent " + agents_.at(static_cast<std::size_t>(agent)).name +
+                                " must be finite");
+  }
+  state(agent).command = twist;
+}
 
 void Simulation::advance() {
-  for (std::size_t i = 0; i < agents_.size(); ++i) {
-    twists_[i] = body_->held(agents_[i].particle).twist;
+  for (const AgentState& state : states_) {
+    if (state.particle >= 0) {
+      body_->setTwist(state.particle, state.command);
+    }
   }
   for (int step = 0; step < clock_.steps_per_cycle; ++step) {
     body_->step(clock_.time_step, clock_.substeps);
+  }
+  for (AgentState& state : states_) {
+    state.pose = state.particle >= 0 ? body_->held(state.particle).pose
+                                     : moved(state.pose, state.command, clock_.cycleTime());
+    state.twist = state.command;
   }
   ++cycle_;
 }
 
 void Simulation::reset() {
-  body_ = start_->clone();
-  twists_.assign(agents_.size(), Twist());
+  body_ = start_body_->clone();
+  states_ = start_states_;
+  if (material_changed_) {
+    settle();
+    start_body_ = body_->clone();
+    material_changed_ = false;
+  }
   cycle_ = 0;
   ++reset_count_;
 }
 
 int Simulation::addPerturbation(const Perturbation& perturbation) {
-  return body_->addCopy(agent(perturbation.agent).particle, perturbation.displacement);
+  AgentState& displaced = state(perturbation.agent);
+  const int id = body_->addCopy(displaced.particle, perturbation.displacement);
+  displaced.displacements.push_back(perturbation.displacement);
+  return id;
 }
 
 void Simulation::removePerturbations(const std::vector<int>& ids) {
   for (int id : ids) {
+    const std::vector<PerturbedCopy>& copies = body_->copies();
+    const auto copy = std::find_if(copies.begin(), copies.end(), [id](const PerturbedCopy& c) { return c.id == id; });
+    if (copy != copies.end()) {
+      std::vector<Vector3>& displacements = state(agentOf(copy->particle)).displacements;
+      displacements.erase(std::find(displacements.begin(), displacements.end(), copy->requested));
+    }
     body_->removeCopy(id);
   }
 }
 
-void Simulation::clearPerturbations(int index) {
-  const int particle = agent(index).particle;
+void Simulation::clearPerturbations(int agent) {
   std::vector<int> ids;
   for (const PerturbedCopy& copy : body_->copies()) {
-    if (copy.particle == particle) {
+    if (copy.particle == state(agent).particle) {
       ids.push_back(copy.id);
     }
   }
   removePerturbations(ids);
+  state(agent).displacements.clear();
+}
+
+void Simulation::release(int agent) {
+  AgentState& released = state(agent);
+  if (released.particle < 0) {
+    throw std::logic_error(agents_[agent].name + " holds no particle");
+  }
+  body_->release(released.particle);
+  released.particle = -1;
+}
+
+void Simulation::hold(int agent, int particle, Hold type) {
+  AgentState& holder = state(agent);
+  if (holder.particle >= 0) {
+    throw std::logic_error(agents_[agent].name + " holds particle " + std::to_string(holder.particle) +
+                           " already; release it first");
+  }
+  const double distance = (body_->pose(particle).position - holder.pose.position).norm();
+  if (distance > kGripReach) {
+    throw std::logic_error("particle " + std::to_string(particle) + " is " + std::to_string(distance) + " m away from " +
+                           agents_[agent].name + "; it can grip up to " + std::to_string(kGripReach) + " m");
+  }
+  body_->hold(particle, type);
+  holder.particle = particle;
+  holder.pose = body_->held(particle).pose;
+  for (const Vector3& displacement : holder.displacements) {
+    body_->addCopy(particle, displacement);
+  }
+}
+
+void Simulation::setMaterial(const std::vector<MaterialParameter>& parameters) {
+  body_->setMaterial(parameters);
+  start_body_->setMaterial(parameters);
+  material_changed_ = true;
 }
 
 int Simulation::agentOf(int particle) const {
-  const auto found = std::find_if(agents_.begin(), agents_.end(),
-                                  [particle](const Agent& agent) { return agent.particle == particle; });
-  return found == agents_.end() ? -1 : static_cast<int>(found - agents_.begin());
+  const auto found = std::find_if(states_.begin(), states_.end(),
+                                  [particle](const AgentState& state) { return state.particle == particle; });
+  return found == states_.end() ? -1 : static_cast<int>(found - states_.begin());
 }
 
-const HeldPoint& Simulation::held(int index) const { return body_->held(agent(index).particle); }
+int Simulation::particleOf(int agent) const { return state(agent).particle; }
 
-const Twist& Simulation::twist(int index) const { return twists_.at(static_cast<std::size_t>(index)); }
+const Pose& Simulation::pose(int agent) const { return state(agent).pose; }
 
-Wrench Simulation::wrench(int index) const { return body_->wrench(agent(index).particle); }
+const Twist& Simulation::twist(int agent) const { return state(agent).twist; }
+
+Wrench Simulation::wrench(int agent) const {
+  const int particle = state(agent).particle;
+  return particle >= 0 ? body_->wrench(particle) : Wrench();
+}
 
 }  // namespace pbd
 }  // namespace deformable_manipulation

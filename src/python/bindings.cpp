@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -92,6 +93,14 @@ Array particlesOf(const Body& body, int copy, int components, Read read) {
   Array array({body.particleCount(), components});
   read(array.mutable_data());
   return array;
+}
+
+std::vector<MaterialParameter> toParameters(const std::map<std::string, double>& parameters) {
+  std::vector<MaterialParameter> converted;
+  for (const auto& [key, value] : parameters) {
+    converted.push_back({key, value});
+  }
+  return converted;
 }
 
 std::pair<Vector3, Vector3> toPair(const Wrench& wrench) { return {wrench.force, wrench.torque}; }
@@ -206,6 +215,14 @@ void bindBody(py::module_& module) {
             return ids;
           },
           "Ids of copies 1 to C - 1, in their order.")
+      .def(
+          "set_material",
+          [](Body& body, const std::map<std::string, double>& parameters) {
+            body.setMaterial(toParameters(parameters));
+          },
+          py::arg("parameters"),
+          "Changes the material while running: dict of parameter (as in the scenario's object) to value. Raises\n"
+          "ParameterError.")
       .def("lay_out", &Body::layOut, "Places all copies, at rest, on a slack curve between the holds.")
       .def("step", &Body::step, py::arg("time_step"), py::arg("substeps"), py::call_guard<py::gil_scoped_release>(),
            "Advances by time_step [s]. Raises NonFiniteState.")
@@ -253,9 +270,7 @@ void bindBody(py::module_& module) {
       .def(py::init(&makeRod), py::kw_only(), py::arg("length"), py::arg("radius"), py::arg("density"),
            py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch") = "zero",
            py::arg("damping") = 10.0, py::arg("solver") = "direct", py::arg("gravity") = Vector3(0.0, 0.0, -9.81),
-           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0))
-      .def("set_material", &Rod::setMaterial, py::arg("young_modulus"), py::arg("torsion_modulus"),
-           py::arg("damping"), "Changes the material while running. Raises ParameterError.");
+           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
 void bindSimulation(py::module_& module) {
@@ -283,6 +298,30 @@ void bindSimulation(py::module_& module) {
           py::arg("agent"), py::arg("displacement"), "Adds a copy while running; returns its id.")
       .def("clear_perturbations", &Simulation::clearPerturbations, py::arg("agent"),
            "Removes the copies that displace an agent.")
+      .def("release", &Simulation::release, py::arg("agent"), "Lets an agent's particle go.")
+      .def(
+          "hold",
+          [](Simulation& simulation, int agent, int particle, const std::string& type) {
+            simulation.hold(agent, particle, toHold(type));
+          },
+          py::arg("agent"), py::arg("particle"), py::arg("type") = "clamped",
+          "Grips a particle, where it is, with an agent that holds none and is near.")
+      .def(
+          "set_material",
+          [](Simulation& simulation, const std::map<std::string, double>& parameters) {
+            simulation.setMaterial(toParameters(parameters));
+          },
+          py::arg("parameters"), "As Body.set_material, for resets too.")
+      .def(
+          "particles",
+          [](const Simulation& s) {
+            std::vector<int> particles;
+            for (std::size_t i = 0; i < s.agents().size(); ++i) {
+              particles.push_back(s.particleOf(static_cast<int>(i)));
+            }
+            return particles;
+          },
+          "The particle that each agent holds, or -1.")
       .def_property_readonly("body", &Simulation::body, py::return_value_policy::reference_internal)
       .def_property_readonly("settled", &Simulation::settled, "False if settling was given up.")
       .def_property_readonly("cycle", &Simulation::cycle)
@@ -293,12 +332,12 @@ void bindSimulation(py::module_& module) {
           py::arg("out") = py::none(), "Geometry points (C, P, 3) [m]; see Body.points.")
       .def(
           "positions",
-          [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.held(i).pose.position; }); },
+          [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.pose(i).position; }); },
           "Held points (A, 3) [m].")
       .def(
           "orientations",
           [](const Simulation& s) {
-            return perAgent(s, 4, [&](int i) { return s.held(i).pose.orientation.coeffs(); });
+            return perAgent(s, 4, [&](int i) { return s.pose(i).orientation.coeffs(); });
           },
           "Orientations (A, 4) of the held particles.")
       .def(

@@ -94,7 +94,7 @@ void Simulator::publish() {
   state_publisher_.publish(state_);
   for (std::size_t i = 0; i < pose_publishers_.size(); ++i) {
     if (pose_publishers_[i].getNumSubscribers() > 0) {
-      pose_publishers_[i].publish(toPose(simulation_.held(static_cast<int>(i)).pose, stamp, scenario_.frame));
+      pose_publishers_[i].publish(toPose(simulation_.pose(static_cast<int>(i)), stamp, scenario_.frame));
     }
   }
   drawMarkers();

@@ -18,12 +18,13 @@ void fillAgents(const pbd::Simulation& simulation, ObjectState& message) {
   message.agent_velocities.clear();
   message.agent_angular_velocities.clear();
   for (std::size_t i = 0; i < simulation.agents().size(); ++i) {
-    const pbd::HeldPoint& held = simulation.held(static_cast<int>(i));
-    const pbd::Twist& twist = simulation.twist(static_cast<int>(i));
+    const int agent = static_cast<int>(i);
+    const pbd::Pose& pose = simulation.pose(agent);
+    const pbd::Twist& twist = simulation.twist(agent);
     message.agents.push_back(simulation.agents()[i].name);
-    message.agent_particles.push_back(held.particle);
-    append(message.agent_positions, held.pose.position);
-    append(message.agent_orientations, held.pose.orientation.coeffs());
+    message.agent_particles.push_back(simulation.particleOf(agent));
+    append(message.agent_positions, pose.position);
+    append(message.agent_orientations, pose.orientation.coeffs());
     append(message.agent_velocities, twist.linear);
     append(message.agent_angular_velocities, twist.angular);
   }

@@ -42,9 +42,10 @@ TEST(RodParameters, areRefusedAllAtOnce) {
 
 TEST(RodParameters, keepTheMaterialWhenTheNewOneIsRefused) {
   Rod rod(rope());
-  EXPECT_THROW(rod.setMaterial(1e9, -1.0, 10.0), ParameterError);
+  EXPECT_THROW(rod.setMaterial({{"young_modulus", 1e9}, {"torsion_modulus", -1.0}}), ParameterError);
+  EXPECT_THROW(rod.setMaterial({{"young_modulus", 1e9}, {"colour", 1.0}}), ParameterError);
   EXPECT_EQ(rod.parameters().young_modulus, 30e6);
-  rod.setMaterial(1e9, 1e8, 10.0);
+  rod.setMaterial({{"young_modulus", 1e9}});
   EXPECT_EQ(rod.parameters().young_modulus, 1e9);
 }
 
@@ -73,7 +74,7 @@ TEST(Simulation, actsOnACommandFromTheNextAdvanceOn) {
   const double start_z = positions(simulation.body())[13].z();
   simulation.setCommand(1, {Vector3(0.0, 0.0, 0.1), Vector3::Zero()});
   simulation.advance();
-  EXPECT_NEAR(simulation.held(1).pose.position.z(), 0.001, 1e-12);
+  EXPECT_NEAR(simulation.pose(1).position.z(), 0.001, 1e-12);
   EXPECT_NEAR(simulation.twist(1).linear.z(), 0.1, 1e-12);
   EXPECT_EQ(simulation.cycle(), 1);
   EXPECT_THROW(simulation.setCommand(2, Twist()), std::out_of_range);
@@ -84,8 +85,56 @@ TEST(Simulation, actsOnACommandFromTheNextAdvanceOn) {
   EXPECT_EQ(simulation.cycle(), 0);
   EXPECT_EQ(simulation.resetCount(), 1);
   EXPECT_EQ(simulation.body().copyCount(), 2);
-  EXPECT_EQ(simulation.held(1).pose.position.z(), 0.0);
+  EXPECT_EQ(simulation.pose(1).position.z(), 0.0);
   EXPECT_EQ(positions(simulation.body())[13].z(), start_z);
+}
+
+TEST(Simulation, letsAgentsReleaseAndGrip) {
+  const RodParameters p = rope();
+  Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
+  Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock());
+  EXPECT_THROW(simulation.hold(1, 20, Hold::PINNED), std::logic_error);  // it holds one
+  simulation.release(1);
+  EXPECT_EQ(simulation.particleOf(1), -1);
+  EXPECT_EQ(simulation.body().copyCount(), 1);
+  EXPECT_EQ(simulation.wrench(1).force.norm(), 0.0);
+  EXPECT_THROW(simulation.release(1), std::logic_error);
+  simulation.setCommand(1, {Vector3(0.0, 0.0, -0.1), Vector3::Zero()});
+  for (int i = 0; i < 100; ++i) {
+    simulation.advance();
+  }
+  EXPECT_NEAR(simulation.pose(1).position.z(), -0.1, 1e-12);      // the agent moves on
+  EXPECT_LT(positions(simulation.body())[27].z(), -0.5);          // the rope falls
+  EXPECT_THROW(simulation.hold(1, 27, Hold::CLAMPED), std::logic_error);  // out of its reach
+
+  simulation.setCommand(1, Twist());
+  for (int i = 0; i < 2000; ++i) {  // until the rope hangs still
+    simulation.advance();
+  }
+  const Vector3 there = positions(simulation.body())[27];
+  simulation.setCommand(1, {there - simulation.pose(1).position, Vector3::Zero()});
+  for (int i = 0; i < 100; ++i) {
+    simulation.advance();
+  }
+  simulation.setCommand(1, Twist());
+  const Vector3 end = positions(simulation.body())[27];
+  ASSERT_LT((end - simulation.pose(1).position).norm(), Simulation::kGripReach);
+  simulation.hold(1, 27, Hold::PINNED);
+  EXPECT_EQ(simulation.body().copyCount(), 2);  // its copy is back
+  simulation.advance();
+  EXPECT_LT((positions(simulation.body())[27] - end).norm(), 1e-12);
+}
+
+TEST(Simulation, keepsAChangedMaterialOverAReset) {
+  const RodParameters p = rope();
+  Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
+  Simulation simulation(std::make_unique<Rod>(p), {leader}, {}, Clock());
+  const double soft = positions(simulation.body())[27].z();
+  simulation.setMaterial({{"young_modulus", 3e10}, {"torsion_modulus", 1e10}});
+  simulation.reset();
+  EXPECT_TRUE(simulation.settled());
+  EXPECT_GT(positions(simulation.body())[27].z(), soft + 0.5);
 }
 
 }  // namespace

@@ -60,6 +60,11 @@ class Body {
   //! [kg]
   virtual double mass() const = 0;
 
+  //! Changes the material while running; shape and motion stay.
+  //! @throw ParameterError with every parameter that the object does not have or that is out of range;
+  //! nothing changes then.
+  virtual void setMaterial(const std::vector<MaterialParameter>& parameters) = 0;
+
   // Holding ------------------------------------------------------------------------------------
 
   //! Holds a particle where it is now.
@@ -127,6 +132,9 @@ class Body {
   //! Geometry points of all copies, [copyCount x pointCount x 3] numbers.
   virtual void points(double* to) const = 0;
 
+  //! Pose of a particle of the object itself. @throw std::out_of_range
+  virtual Pose pose(int particle) const = 0;
+
   //! Particle positions of one copy, [particleCount x 3].
   virtual void positions(int copy, double* to) const = 0;
 
@@ -140,9 +148,6 @@ class Body {
   Body() = default;
   Body(const Body&) = default;
   Body& operator=(const Body&) = default;
-
-  //! Pose of a particle of copy 0.
-  virtual Pose particlePose(int particle) const = 0;
 
   //! The set of holds or the kind of one has changed.
   virtual void holdsChanged() = 0;

@@ -21,9 +21,8 @@ class Rod final : public Body {
 
   const RodParameters& parameters() const { return parameters_; }
 
-  //! Changes the material while running; the shape and the motion stay.
-  //! @throw ParameterError; nothing changes then.
-  void setMaterial(double young_modulus, double torsion_modulus, double damping);
+  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s].
+  void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;
   int particleCount() const override { return parameters_.segments; }
@@ -33,12 +32,12 @@ class Rod final : public Body {
   Wrench wrench(int particle) const override;
   void layOut() override;
   void points(double* to) const override;
+  Pose pose(int particle) const override;
   void positions(int copy, double* to) const override;
   void velocities(int copy, double* to) const override;
   bool orientations(int copy, double* to) const override;
 
  protected:
-  Pose particlePose(int particle) const override;
   void holdsChanged() override;
   void resizeCopies() override;
   void assignCopy(int to, int from) override;

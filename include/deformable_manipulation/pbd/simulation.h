@@ -60,7 +60,7 @@ class Simulation {
   //! Back to the settled start; raises resetCount().
   void reset();
 
-  //! Adds a copy while running. @return its id
+  //! Adds a copy while running; it comes and goes with the agent's hold. @return its id
   //! @throw std::out_of_range, std::invalid_argument as Body::addCopy().
   int addPerturbation(const Perturbation& perturbation);
 
@@ -70,6 +70,22 @@ class Simulation {
   //! Removes the copies that displace an agent.
   void clearPerturbations(int agent);
 
+  //! Lets go of the particle that an agent holds; the agent moves on by itself.
+  //! @throw std::out_of_range, std::logic_error if it holds none.
+  void release(int agent);
+
+  //! Grips a particle where it is; the agent is put there, and its perturbed copies come back.
+  //! @throw std::out_of_range, std::logic_error if the agent holds one already, another agent holds
+  //! this one, or the particle is farther from the agent than kGripReach.
+  void hold(int agent, int particle, Hold type);
+
+  //! [m] An agent can grip a particle up to this far from it.
+  static constexpr double kGripReach = 0.1;
+
+  //! Changes material parameters now and for resets to come, which settle the object anew.
+  //! @throw ParameterError; nothing changes then.
+  void setMaterial(const std::vector<MaterialParameter>& parameters);
+
   const Body& body() const { return *body_; }
   const std::vector<Agent>& agents() const { return agents_; }
   const Clock& clock() const { return clock_; }
@@ -77,13 +93,16 @@ class Simulation {
   //! Index of the agent that holds a particle, or -1.
   int agentOf(int particle) const;
 
-  //! Held point of an agent. @throw std::out_of_range
-  const HeldPoint& held(int agent) const;
+  //! The particle that an agent holds, or -1. @throw std::out_of_range
+  int particleOf(int agent) const;
+
+  //! Where an agent is: its held point. @throw std::out_of_range
+  const Pose& pose(int agent) const;
 
   //! The velocity with which an agent came to the present state. @throw std::out_of_range
   const Twist& twist(int agent) const;
 
-  //! What the object exerts on an agent. @throw std::out_of_range
+  //! What the object exerts on an agent; nothing if it holds none. @throw std::out_of_range
   Wrench wrench(int agent) const;
 
   long cycle() const { return cycle_; }
@@ -91,13 +110,26 @@ class Simulation {
   double time() const { return cycle_ * clock_.cycleTime(); }  //!< [s] since the start
 
  private:
-  const Agent& agent(int index) const;
+  //! An agent as it is now.
+  struct AgentState {
+    int particle;  // held, or -1
+    Pose pose;
+    Twist command;
+    Twist twist;  // that led to the present state
+    std::vector<Vector3> displacements;  // of its copies [m]
+  };
+
+  AgentState& state(int agent) { return states_.at(static_cast<std::size_t>(agent)); }
+  const AgentState& state(int agent) const { return states_.at(static_cast<std::size_t>(agent)); }
+  void settle();
 
   std::vector<Agent> agents_;
   Clock clock_;
   std::unique_ptr<Body> body_;
-  std::unique_ptr<Body> start_;  // as settled
-  std::vector<Twist> twists_;
+  std::vector<AgentState> states_;
+  std::unique_ptr<Body> start_body_;  // as settled
+  std::vector<AgentState> start_states_;
+  bool material_changed_ = false;  // since start_body_ was settled
   bool settled_ = false;
   long cycle_ = 0;
   int reset_count_ = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -32,6 +34,24 @@ struct Wrench {
   Vector3 force = Vector3::Zero();
   Vector3 torque = Vector3::Zero();
 };
+
+//! A material parameter by the name it has in the scenario file.
+struct MaterialParameter {
+  std::string key;
+  double value;
+};
+
+//! The pose after a time [s] of constant velocity.
+inline Pose moved(const Pose& pose, const Twist& twist, double time) {
+  Pose result = pose;
+  result.position += time * twist.linear;
+  const double angle = time * twist.angular.norm();
+  if (angle > 0.0) {
+    const Eigen::AngleAxisd rotation(angle, twist.angular.normalized());
+    result.orientation = (Quaternion(rotation) * pose.orientation).normalized();
+  }
+  return result;
+}
 
 }  // namespace pbd
 }  // namespace deformable_manipulation
