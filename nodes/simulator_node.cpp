@@ -19,6 +19,9 @@ int main(int argc, char** argv) {
   deformable_manipulation::SimulatorOptions options;
   own.param("lockstep", options.lockstep, options.lockstep);
   own.param("stop_at_end", options.stop_at_end, options.stop_at_end);
+  own.param("follow_poses", options.follow_poses, options.follow_poses);
+  own.param("pose_namespace", options.pose_namespace, options.pose_namespace);
+  own.param("tf_prefix", options.tf_prefix, options.tf_prefix);
   own.param("state_subscribers", options.state_subscribers, options.state_subscribers);
   try {
     deformable_manipulation::Simulator(deformable_manipulation::readScenario(scenario), options).run();

@@ -155,6 +155,8 @@ void readAgents(const Section& section, SimulatorScenario& scenario) {
          agent.choice<pbd::Hold>("hold", {{"clamped", pbd::Hold::CLAMPED}, {"pinned", pbd::Hold::PINNED}}),
          agent.pose("start", "orientation")});
     scenario.is_assistant.push_back(assistant);
+    scenario.driven_by.push_back(
+        agent.choice<DrivenBy>("driven_by", {{"command", DrivenBy::COMMAND}, {"pose", DrivenBy::POSE}}));
   }
 }
 

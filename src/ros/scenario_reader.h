@@ -5,6 +5,7 @@
 
 #include <XmlRpcValue.h>
 
+#include "agent_link.h"
 #include "deformable_manipulation/pbd/rod_parameters.h"
 #include "deformable_manipulation/pbd/simulation.h"
 
@@ -16,7 +17,8 @@ struct SimulatorScenario {
   std::string frame;
   pbd::RodParameters rod;
   std::vector<pbd::Agent> agents;
-  std::vector<bool> is_assistant;  // one per agent
+  std::vector<bool> is_assistant;   // one per agent
+  std::vector<DrivenBy> driven_by;  // one per agent
   std::vector<pbd::Perturbation> perturbations;
   pbd::Clock clock;
   double duration = 0.0;         // s

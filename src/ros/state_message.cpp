@@ -66,6 +66,19 @@ void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const 
   }
 }
 
+geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.wrench.force.x = wrench.force.x();
+  message.wrench.force.y = wrench.force.y();
+  message.wrench.force.z = wrench.force.z();
+  message.wrench.torque.x = wrench.torque.x();
+  message.wrench.torque.y = wrench.torque.y();
+  message.wrench.torque.z = wrench.torque.z();
+  return message;
+}
+
 geometry_msgs::PoseStamped toPose(const pbd::Pose& pose, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::PoseStamped message;
   message.header.stamp = stamp;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
 
 #include "deformable_manipulation/ObjectState.h"
@@ -13,6 +14,8 @@ namespace deformable_manipulation {
 //! Writes the present state of all copies into a message; its arrays are used again.
 void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const std::string& frame,
                ObjectState& message);
+
+geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time& stamp, const std::string& frame);
 
 geometry_msgs::PoseStamped toPose(const pbd::Pose& pose, const ros::Time& stamp, const std::string& frame);
 

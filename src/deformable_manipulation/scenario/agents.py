@@ -26,6 +26,7 @@ AGENT = Section(
         "particle": Integer(0, 2**31 - 1),
         "role": Choice(LEADER, ASSISTANT),
         "hold": Choice("clamped", "pinned"),
+        "driven_by": Choice("command", "pose"),
         "start": position(),
         "orientation": UnitQuaternion(),
     },

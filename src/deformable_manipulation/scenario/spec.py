@@ -56,6 +56,7 @@ class AgentSpec:
     particle: int
     role: str  # LEADER or ASSISTANT
     hold: str = "clamped"  # "clamped": keeps the particle's orientation; "pinned": leaves it free
+    driven_by: str = "command"  # "command": its cmd_vel; "pose": its pose topic (a real robot)
     start: Vector = (0.0, 0.0, 0.0)  # m, held point at the start
     orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)  # of the held particle at the start
 

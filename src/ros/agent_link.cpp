@@ -1,0 +1,91 @@
+#include "agent_link.h"
+
+#include "state_message.h"
+
+namespace deformable_manipulation {
+namespace {
+
+constexpr double kWarningPeriod = 5.0;  // s
+constexpr int kQueue = 10;
+
+}  // namespace
+
+AgentLink::AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
+                     const std::string& pose_namespace, double timeout)
+    : name_(name), driven_by_(driven_by), frame_(frame), timeout_(timeout), commands_(frame), poses_(frame) {
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  wrench_publisher_ = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 1);
+  if (driven_by_ == DrivenBy::POSE) {
+    subscriber_ = node.subscribe(pose_namespace + name + "/pose", kQueue, &AgentLink::receivePose, this, hints);
+  } else {
+    pose_publisher_ = node.advertise<geometry_msgs::PoseStamped>(name + "/pose", 1);
+    subscriber_ = node.subscribe(name + "/cmd_vel", kQueue, &AgentLink::receiveCommand, this, hints);
+  }
+}
+
+void AgentLink::publish(const pbd::Pose& pose, const pbd::Wrench& wrench, const ros::Time& stamp) {
+  newest_state_ = stamp;
+  if (pose_publisher_.getNumSubscribers() > 0) {
+    pose_publisher_.publish(toPose(pose, stamp, frame_));
+  }
+  if (wrench_publisher_.getNumSubscribers() > 0) {
+    wrench_publisher_.publish(toWrench(wrench, stamp, frame_));
+  }
+}
+
+bool AgentLink::answers(const ros::Time& state) const {
+  return driven_by_ == DrivenBy::POSE || commands_.answers(state);
+}
+
+pbd::Twist AgentLink::twist(const pbd::Pose& present, double cycle_time, bool lockstep) const {
+  if (driven_by_ == DrivenBy::COMMAND) {
+    return commanded(lockstep);
+  }
+  if (!poses_.fresh(ros::Time::now(), timeout_)) {
+    warn("stands still: no pose on " + subscriber_.getTopic() + " for more than " + std::to_string(timeout_) + " s");
+    return pbd::Twist();
+  }
+  return poses_.twistFrom(present, cycle_time);
+}
+
+pbd::Twist AgentLink::commanded(bool lockstep) const {
+  if (subscriber_.getNumPublishers() > 1) {
+    warn("stands still: " + std::to_string(subscriber_.getNumPublishers()) + " publishers send commands on " +
+         subscriber_.getTopic() + "; leave one of them");
+    return pbd::Twist();
+  }
+  if (lockstep) {
+    return commands_.command();
+  }
+  const ros::Time now = ros::Time::now();
+  if (commands_.timedOut(now, timeout_)) {
+    warn("stands still: no command on " + subscriber_.getTopic() + " for more than " + std::to_string(timeout_) + " s");
+  }
+  return commands_.command(now, timeout_);
+}
+
+void AgentLink::reset() { commands_.reset(); }
+
+void AgentLink::receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command) {
+  const std::string fault = commands_.receive(*command, newest_state_);
+  if (!fault.empty()) {
+    warn("gets a command that is dropped: " + fault);
+  }
+}
+
+void AgentLink::receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
+  const std::string fault = poses_.receive(*pose);
+  if (!fault.empty()) {
+    warn("gets a pose that is dropped: " + fault);
+  }
+}
+
+void AgentLink::warn(const std::string& text) const {
+  const ros::WallTime now = ros::WallTime::now();
+  if (now > quiet_until_) {
+    quiet_until_ = now + ros::WallDuration(kWarningPeriod);
+    ROS_WARN_STREAM("Agent " << name_ << " " << text << ".");
+  }
+}
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/ros.h>
+
+#include "command_inbox.h"
+#include "deformable_manipulation/pbd/types.h"
+#include "pose_inbox.h"
+
+namespace deformable_manipulation {
+
+//! What moves an agent of the simulation.
+enum class DrivenBy {
+  COMMAND,  //!< its cmd_vel; the simulator publishes its pose
+  POSE      //!< its pose topic: a real robot, or another simulator
+};
+
+//! An agent's topics: commands or measured poses in, poses and wrenches out.
+class AgentLink {
+ public:
+  //! @param pose_namespace  prefix of the pose topic of an agent driven by its pose
+  AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
+            const std::string& pose_namespace, double timeout);
+
+  //! Publishes pose and wrench to whoever subscribes.
+  void publish(const pbd::Pose& pose, const pbd::Wrench& wrench, const ros::Time& stamp);
+
+  //! Whether the agent has answered this state; agents driven by their pose need not.
+  bool answers(const ros::Time& state) const;
+
+  //! The velocity of the agent in the next cycle: zero, with a warning, where its input is missing.
+  //! @param lockstep  commands do not age
+  pbd::Twist twist(const pbd::Pose& present, double cycle_time, bool lockstep) const;
+
+  //! Forgets what has been received.
+  void reset();
+
+  const std::string& name() const { return name_; }
+
+ private:
+  void receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command);
+  void receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose);
+  void warn(const std::string& text) const;
+  pbd::Twist commanded(bool lockstep) const;
+
+  std::string name_;
+  DrivenBy driven_by_;
+  std::string frame_;
+  double timeout_;  // s
+  CommandInbox commands_;
+  PoseInbox poses_;
+  ros::Time newest_state_;
+  mutable ros::WallTime quiet_until_;
+  ros::Publisher pose_publisher_, wrench_publisher_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,51 @@
+#include "pose_inbox.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace deformable_manipulation {
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;
+
+pbd::Vector3 limited(const pbd::Vector3& vector, double largest) {
+  const double size = vector.norm();
+  return size > largest ? pbd::Vector3(vector * (largest / size)) : vector;
+}
+
+}  // namespace
+
+std::string PoseInbox::receive(const geometry_msgs::PoseStamped& message) {
+  std::ostringstream why;
+  const geometry_msgs::Point& p = message.pose.position;
+  const geometry_msgs::Quaternion& q = message.pose.orientation;
+  pbd::Pose pose{pbd::Vector3(p.x, p.y, p.z), pbd::Quaternion(q.w, q.x, q.y, q.z)};
+  if (message.header.frame_id != frame_) {
+    why << "it is in frame '" << message.header.frame_id << "', not in '" << frame_ << "'";
+  } else if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite()) {
+    why << "it is not finite";
+  } else if (std::abs(pose.orientation.norm() - 1.0) > kUnitTolerance) {
+    why << "its quaternion has the norm " << pose.orientation.norm() << ", not 1";
+  } else if (received_ && message.header.stamp <= stamp_) {
+    why << "its stamp " << message.header.stamp << " is not newer than the last one, " << stamp_;
+  } else {
+    received_ = true;
+    stamp_ = message.header.stamp;
+    pose.orientation.normalize();
+    pose_ = pose;
+  }
+  return why.str();
+}
+
+bool PoseInbox::fresh(const ros::Time& now, double timeout) const {
+  return received_ && std::abs((now - stamp_).toSec()) <= timeout;
+}
+
+pbd::Twist PoseInbox::twistFrom(const pbd::Pose& present, double time) const {
+  const Eigen::AngleAxisd rotation(pose_.orientation * present.orientation.conjugate());
+  const double angle = std::remainder(rotation.angle(), 2.0 * M_PI);  // the shorter way
+  return {limited((pose_.position - present.position) / time, kMaxSpeed),
+          limited(angle / time * rotation.axis(), kMaxAngularSpeed)};
+}
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,54 @@
+#include "visualization.h"
+
+#include <tf2_msgs/TFMessage.h>
+
+namespace deformable_manipulation {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod(40);
+
+}  // namespace
+
+Visualization::Visualization(ros::NodeHandle& node, double diameter, std::string tf_prefix)
+    : object_(diameter),
+      tf_prefix_(std::move(tf_prefix)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 4)),
+      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)) {}
+
+void Visualization::show(const ObjectState& state) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kPeriod) {
+    return;
+  }
+  last_ = now;
+  trails_.add(state);
+  if (markers_.getNumSubscribers() > 0) {
+    markers_.publish(object_.draw(state));
+    markers_.publish(trails_.draw());
+  }
+  if (transforms_.getNumSubscribers() > 0) {
+    sendTransforms(state);
+  }
+}
+
+void Visualization::sendTransforms(const ObjectState& state) {
+  tf2_msgs::TFMessage message;
+  for (std::size_t i = 0; i < state.agents.size(); ++i) {
+    geometry_msgs::TransformStamped transform;
+    transform.header = state.header;
+    transform.child_frame_id = tf_prefix_ + state.agents[i];
+    const double* p = &state.agent_positions[3 * i];
+    const double* q = &state.agent_orientations[4 * i];
+    transform.transform.translation.x = p[0];
+    transform.transform.translation.y = p[1];
+    transform.transform.translation.z = p[2];
+    transform.transform.rotation.x = q[0];
+    transform.transform.rotation.y = q[1];
+    transform.transform.rotation.z = q[2];
+    transform.transform.rotation.w = q[3];
+    message.transforms.push_back(transform);
+  }
+  transforms_.publish(message);
+}
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include <ros/ros.h>
+
+#include "deformable_manipulation/ObjectState.h"
+#include "object_markers.h"
+#include "trail_markers.h"
+
+namespace deformable_manipulation {
+
+//! Markers and tf of the states, at most 25 times per second, while somebody subscribes.
+class Visualization {
+ public:
+  //! @param diameter  of the rod [m]
+  //! @param tf_prefix  put before the agents' names to make their tf frames
+  Visualization(ros::NodeHandle& node, double diameter, std::string tf_prefix);
+
+  void show(const ObjectState& state);
+
+ private:
+  void sendTransforms(const ObjectState& state);
+
+  ObjectMarkers object_;
+  TrailMarkers trails_;
+  std::string tf_prefix_;
+  ros::Publisher markers_, transforms_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace deformable_manipulation
