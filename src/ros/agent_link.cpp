@@ -8,11 +8,20 @@ namespace {
 constexpr double kWarningPeriod = 5.0;  // s
 constexpr int kQueue = 10;
 
+// A simulation that is started, or gets poses again after a gap, first has to catch up.
+constexpr double kCaughtUp = 0.05;  // m
+
 }  // namespace
 
 AgentLink::AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
-                     const std::string& pose_namespace, double timeout)
-    : name_(name), driven_by_(driven_by), frame_(frame), timeout_(timeout), commands_(frame), poses_(frame) {
+                     const std::string& pose_namespace, double timeout, bool lockstep)
+    : name_(name),
+      driven_by_(driven_by),
+      frame_(frame),
+      timeout_(timeout),
+      lockstep_(lockstep),
+      commands_(frame),
+      poses_(frame, timeout) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   wrench_publisher_ = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 1);
   if (driven_by_ == DrivenBy::POSE) {
@@ -37,24 +46,32 @@ bool AgentLink::answers(const ros::Time& state) const {
   return driven_by_ == DrivenBy::POSE || commands_.answers(state);
 }
 
-pbd::Twist AgentLink::twist(const pbd::Pose& present, double cycle_time, bool lockstep) const {
+pbd::Twist AgentLink::twist(const pbd::Pose& present, double cycle_time) const {
   if (driven_by_ == DrivenBy::COMMAND) {
-    return commanded(lockstep);
+    return commanded();
   }
-  if (!poses_.fresh(ros::Time::now(), timeout_)) {
-    warn("stands still: no pose on " + subscriber_.getTopic() + " for more than " + std::to_string(timeout_) + " s");
-    return pbd::Twist();
-  }
-  return poses_.twistFrom(present, cycle_time);
+  return poses_.fresh(ros::Time::now()) ? poses_.twistFrom(present, cycle_time) : pbd::Twist();
 }
 
-pbd::Twist AgentLink::commanded(bool lockstep) const {
+bool AgentLink::isTrue(const pbd::Pose& present) const {
+  if (driven_by_ == DrivenBy::COMMAND) {
+    return true;
+  }
+  if (!poses_.fresh(ros::Time::now())) {
+    warn("is lost: no pose on " + subscriber_.getTopic() + " newer than " + std::to_string(timeout_) +
+         " s; no states until it comes");
+    return false;
+  }
+  return poses_.distanceFrom(present.position) < kCaughtUp;
+}
+
+pbd::Twist AgentLink::commanded() const {
   if (subscriber_.getNumPublishers() > 1) {
     warn("stands still: " + std::to_string(subscriber_.getNumPublishers()) + " publishers send commands on " +
          subscriber_.getTopic() + "; leave one of them");
     return pbd::Twist();
   }
-  if (lockstep) {
+  if (lockstep_) {
     return commands_.command();
   }
   const ros::Time now = ros::Time::now();
@@ -67,7 +84,8 @@ pbd::Twist AgentLink::commanded(bool lockstep) const {
 void AgentLink::reset() { commands_.reset(); }
 
 void AgentLink::receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command) {
-  const std::string fault = commands_.receive(*command, newest_state_);
+  const ros::Time latest = lockstep_ ? newest_state_ : ros::Time::now() + ros::Duration(timeout_);
+  const std::string fault = commands_.receive(*command, latest);
   if (!fault.empty()) {
     warn("gets a command that is dropped: " + fault);
   }

@@ -22,8 +22,10 @@ enum class DrivenBy {
 class AgentLink {
  public:
   //! @param pose_namespace  prefix of the pose topic of an agent driven by its pose
+  //! @param timeout         [s] age at which commands and poses count as lost
+  //! @param lockstep        commands answer the newest state and do not age
   AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
-            const std::string& pose_namespace, double timeout);
+            const std::string& pose_namespace, double timeout, bool lockstep);
 
   //! Publishes pose and wrench to whoever subscribes.
   void publish(const pbd::Pose& pose, const pbd::Wrench& wrench, const ros::Time& stamp);
@@ -32,8 +34,11 @@ class AgentLink {
   bool answers(const ros::Time& state) const;
 
   //! The velocity of the agent in the next cycle: zero, with a warning, where its input is missing.
-  //! @param lockstep  commands do not age
-  pbd::Twist twist(const pbd::Pose& present, double cycle_time, bool lockstep) const;
+  pbd::Twist twist(const pbd::Pose& present, double cycle_time) const;
+
+  //! Whether the simulated agent is where the real one is: driven by commands, or close to a pose
+  //! that is not lost. Says why not.
+  bool isTrue(const pbd::Pose& present) const;
 
   //! Forgets what has been received.
   void reset();
@@ -44,12 +49,13 @@ class AgentLink {
   void receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command);
   void receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose);
   void warn(const std::string& text) const;
-  pbd::Twist commanded(bool lockstep) const;
+  pbd::Twist commanded() const;
 
   std::string name_;
   DrivenBy driven_by_;
   std::string frame_;
   double timeout_;  // s
+  bool lockstep_;
   CommandInbox commands_;
   PoseInbox poses_;
   ros::Time newest_state_;

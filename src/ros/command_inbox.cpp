@@ -7,18 +7,20 @@ namespace {
 
 pbd::Vector3 toVector(const geometry_msgs::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
+bool isStop(const pbd::Twist& twist) { return twist.linear.isZero(0.0) && twist.angular.isZero(0.0); }
+
 }  // namespace
 
-std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, const ros::Time& newest_state) {
+std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, const ros::Time& latest) {
   std::ostringstream why;
   const pbd::Twist twist{toVector(command.twist.linear), toVector(command.twist.angular)};
   if (command.header.frame_id != frame_) {
     why << "it is in frame '" << command.header.frame_id << "', not in '" << frame_ << "'";
   } else if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
     why << "it is not finite";
-  } else if (command.header.stamp > newest_state) {
-    why << "its stamp " << command.header.stamp << " is newer than any state; set it to the stamp of the state answered";
-  } else if (received_ && command.header.stamp <= stamp_) {
+  } else if (command.header.stamp > latest) {
+    why << "its stamp " << command.header.stamp << " is in the future; set it to that of the state answered, and keep the computers' clocks together";
+  } else if (received_ && (command.header.stamp < stamp_ || (command.header.stamp == stamp_ && !isStop(twist)))) {
     why << "its stamp " << command.header.stamp << " is not newer than the last one, " << stamp_;
   } else {
     received_ = true;

@@ -12,15 +12,16 @@ namespace deformable_manipulation {
 //! The newest acceptable velocity command of one agent.
 //!
 //! A command answers the state whose stamp it carries. One that is not finite, in another frame,
-//! or does not answer a state newer than the last accepted one is dropped.
+//! or does not answer a state newer than the last accepted one is dropped. A second answer to the
+//! same state is taken if it is to stand still: who leaves or loses its inputs stops at once.
 class CommandInbox {
  public:
   //! @param frame  fixed frame that commands must be in
   explicit CommandInbox(std::string frame) : frame_(std::move(frame)) {}
 
-  //! @param newest_state  stamp of the newest state published
+  //! @param latest  latest stamp that a command can have
   //! @return why the command is dropped; empty if it is accepted
-  std::string receive(const geometry_msgs::TwistStamped& command, const ros::Time& newest_state);
+  std::string receive(const geometry_msgs::TwistStamped& command, const ros::Time& latest);
 
   //! Whether the newest accepted command answers this state.
   bool answers(const ros::Time& state) const { return received_ && stamp_ == state; }

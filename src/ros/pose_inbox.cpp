@@ -26,10 +26,11 @@ std::string PoseInbox::receive(const geometry_msgs::PoseStamped& message) {
     why << "it is not finite";
   } else if (std::abs(pose.orientation.norm() - 1.0) > kUnitTolerance) {
     why << "its quaternion has the norm " << pose.orientation.norm() << ", not 1";
-  } else if (received_ && message.header.stamp <= stamp_) {
+  } else if (!silent() && message.header.stamp <= stamp_) {
     why << "its stamp " << message.header.stamp << " is not newer than the last one, " << stamp_;
   } else {
     received_ = true;
+    received_at_ = ros::SteadyTime::now();
     stamp_ = message.header.stamp;
     pose.orientation.normalize();
     pose_ = pose;
@@ -37,8 +38,12 @@ std::string PoseInbox::receive(const geometry_msgs::PoseStamped& message) {
   return why.str();
 }
 
-bool PoseInbox::fresh(const ros::Time& now, double timeout) const {
-  return received_ && std::abs((now - stamp_).toSec()) <= timeout;
+bool PoseInbox::silent() const {
+  return !received_ || (ros::SteadyTime::now() - received_at_).toSec() > timeout_;
+}
+
+bool PoseInbox::fresh(const ros::Time& now) const {
+  return !silent() && std::abs((now - stamp_).toSec()) <= timeout_;
 }
 
 pbd::Twist PoseInbox::twistFrom(const pbd::Pose& present, double time) const {

@@ -10,16 +10,25 @@
 namespace deformable_manipulation {
 
 //! The newest acceptable measured pose of one agent, for agents that are driven by their pose.
+//!
+//! A pose that is not finite, in another frame, or not newer than the last accepted one is dropped.
+//! Once none has been accepted for the timeout, order begins anew: the sender's clock may have been
+//! set back.
 class PoseInbox {
  public:
-  //! @param frame  fixed frame that poses must be in
-  explicit PoseInbox(std::string frame) : frame_(std::move(frame)) {}
+  //! @param frame    fixed frame that poses must be in
+  //! @param timeout  [s] age at which a pose counts as lost
+  PoseInbox(std::string frame, double timeout) : frame_(std::move(frame)), timeout_(timeout) {}
 
   //! @return why the pose is dropped; empty if it is accepted
   std::string receive(const geometry_msgs::PoseStamped& pose);
 
-  //! Whether there is a pose not older than the timeout [s].
-  bool fresh(const ros::Time& now, double timeout) const;
+  //! Whether there is a pose that is not lost. Its stamp counts, and when it came: a late message
+  //! is as useless as none.
+  bool fresh(const ros::Time& now) const;
+
+  //! Distance [m] from a position to the newest pose.
+  double distanceFrom(const pbd::Vector3& position) const { return (pose_.position - position).norm(); }
 
   //! The velocity that leads from a pose to the newest one in a time [s], at most kMaxSpeed: a
   //! measurement that leaps must not tear the object.
@@ -29,8 +38,12 @@ class PoseInbox {
   static constexpr double kMaxAngularSpeed = 6.0;  // rad/s
 
  private:
+  bool silent() const;
+
   std::string frame_;
+  double timeout_;
   bool received_ = false;
+  ros::SteadyTime received_at_;
   ros::Time stamp_;
   pbd::Pose pose_;
 };

@@ -41,7 +41,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   for (std::size_t i = 0; i < scenario_.agents.size(); ++i) {
     const DrivenBy driven_by = options_.follow_poses ? DrivenBy::POSE : scenario_.driven_by[i];
     links_.emplace_back(node_, scenario_.agents[i].name, driven_by, scenario_.frame, options_.pose_namespace,
-                        scenario_.command_timeout);
+                        scenario_.command_timeout, options_.lockstep);
   }
 }
 
@@ -55,7 +55,9 @@ void Simulator::run() {
         link.reset();
       }
     }
-    publish();
+    if (agentsAreTrue()) {
+      publish();
+    }
     simulation_.advance();
     options_.lockstep ? awaitCommands() : awaitTick();
     applyInputs();
@@ -80,9 +82,24 @@ void Simulator::waitForNodes() {
   }
 }
 
+//! A simulation of agents that are somewhere else must not move any robot.
+bool Simulator::agentsAreTrue() const {
+  bool all = true;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    all = links_[i].isTrue(simulation_.pose(static_cast<int>(i))) && all;
+  }
+  return all;
+}
+
 void Simulator::publish() {
   const ros::Time stamp = options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime())
                                             : ros::Time::now();
+  if (stamp < state_.header.stamp) {
+    ROS_WARN("The clock was set back by %.3f s; commands count from now on.", (state_.header.stamp - stamp).toSec());
+    for (AgentLink& link : links_) {
+      link.reset();
+    }
+  }
   fillState(simulation_, stamp, scenario_.frame, state_);
   ++published_;
   if (options_.lockstep) {
@@ -149,7 +166,7 @@ void Simulator::applyInputs() {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const int agent = static_cast<int>(i);
     simulation_.setCommand(
-        agent, links_[i].twist(simulation_.pose(agent), scenario_.clock.cycleTime(), options_.lockstep));
+        agent, links_[i].twist(simulation_.pose(agent), scenario_.clock.cycleTime()));
   }
 }
 

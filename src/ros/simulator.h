@@ -46,6 +46,7 @@ class Simulator {
   void awaitTick();
   void awaitPermission();
   void applyInputs();
+  bool agentsAreTrue() const;
   std::string unanswered() const;
   bool atEnd() const;
 

@@ -114,7 +114,7 @@ class AssistantController:
         started = time.perf_counter()
         fault = find_fault(observation, self._agents)
         if fault:
-            decision = self._stopped(Status.WAITING, f"Waits, zero velocity: {fault}.")
+            decision = self.wait(fault)
         elif self._is_answered(observation.time):
             return self._last
         else:
@@ -122,6 +122,18 @@ class AssistantController:
         self._command = decision.command
         self._last = replace(decision, computation_time=time.perf_counter() - started)
         return self._last
+
+    def wait(self, reason):
+        """Stand still because an input is missing or unusable.
+
+        Args:
+            reason: a clause that says what is wrong, without a full stop.
+
+        Returns:
+            :class:`~.decision.Decision` with zero velocity and status WAITING.
+        """
+        self._command = np.zeros(3)
+        return self._stopped(Status.WAITING, f"Waits, zero velocity: {reason}.")
 
     def _is_answered(self, stamp):
         if self._time is None:

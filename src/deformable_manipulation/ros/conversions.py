@@ -45,8 +45,12 @@ def to_observation(state, distances, scenario) -> Observation:
 
     Time counts from the start of the run: cycles of the scenario's rate.
 
-    Raises MessageError: an array's size does not fit, or an agent is missing.
+    Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
+    if state.header.frame_id != scenario.frame:
+        raise MessageError(
+            f"header.frame_id: '{state.header.frame_id}', expected '{scenario.frame}'"
+        )
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
     scenario_index[order] = np.arange(len(order))
@@ -61,7 +65,7 @@ def to_observation(state, distances, scenario) -> Observation:
         points=points_of(state),
         displaced_agents=scenario_index[displaced],
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
-        ready=np.asarray(state.copy_ready, dtype=bool),
+        ready=_flags(state.copy_ready, "copy_ready", copies),
         distances=to_distances(distances),
     )
 
@@ -151,6 +155,11 @@ def to_twist(message, state, velocity):
     linear = message.twist.linear
     linear.x, linear.y, linear.z = (float(value) for value in velocity)
     return message
+
+
+def _flags(values, name, count):
+    """Flags (count,) from an array of uint8, which Python gets as bytes, with rospy.numpy_msg too."""
+    return _reshaped(np.frombuffer(bytes(values), dtype=np.uint8), name, (count,)) != 0
 
 
 def _reshaped(values, name, shape):

@@ -19,6 +19,11 @@ class CyclePairing:
         self._state = None
         self._distances = None
 
+    @property
+    def newest_state(self):
+        """The newest state, or None."""
+        return self._state
+
     def state(self, message):
         """Take in a state."""
         with self._lock:
@@ -44,5 +49,10 @@ def _key(message):
 
 
 def _is_newer(message, known):
-    # A simulator that was started again begins with cycle 0 and reset 0: its stamps tell.
-    return known is None or message.header.stamp > known.header.stamp
+    # A simulator that was started again begins with cycle 0: there the stamp tells. Where the
+    # clock was set back, the cycle does.
+    return (
+        known is None
+        or message.header.stamp > known.header.stamp
+        or _key(message) > _key(known)
+    )

@@ -1,6 +1,7 @@
 """What the package's rospy nodes have in common."""
 
 import sys
+import threading
 
 import numpy as np
 import rospy
@@ -50,6 +51,27 @@ def _require_numpy():
 
 def subscribe(topic, message_class, callback):
     """Subscribe to the newest message of a topic without delay."""
+
+    def call(message):
+        try:
+            callback(message)
+        except rospy.ROSException:
+            # Messages come until the very end, when the publishers are closed already.
+            if not rospy.is_shutdown():
+                raise
+
     return rospy.Subscriber(
-        topic, message_class, callback, queue_size=1, buff_size=BUFFER_SIZE, tcp_nodelay=True
+        topic, message_class, call, queue_size=1, buff_size=BUFFER_SIZE, tcp_nodelay=True
     )
+
+
+def every(period, callback):
+    """Call back every period [s] of real time, whatever the ROS clock does, until shutdown."""
+    stopped = threading.Event()
+    rospy.on_shutdown(stopped.set)
+
+    def loop():
+        while not stopped.wait(period):
+            callback()
+
+    threading.Thread(target=loop, daemon=True).start()

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""A lock-step run is complete, safe, and the same as without ROS.
+
+Parameters: ~cycles, how many are looked at.
+"""
+
+import unittest
+
+import numpy as np
+import rospy
+from observed_run import (
+    assert_same_positions,
+    command_of,
+    object_points,
+    observe_controllers,
+    observe_states,
+    read_scenario,
+    records_without_ros,
+    run_test,
+)
+
+from deformable_manipulation.closed_loop import make_minimum_distance
+
+TOLERANCE = 1e-9  # m and m/s: rounding
+
+
+class LockstepTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cycles = rospy.get_param("~cycles")
+        cls.scenario = read_scenario()
+        cls.controllers = observe_controllers(cls.scenario)
+        states = observe_states()
+        cls.states = states.wait_for_cycle(cls.cycles - 1)[: cls.cycles]
+        cls.records = records_without_ros(cls.scenario, cls.cycles)
+
+    def test_every_state_comes_in_order(self):
+        self.assertEqual([state.cycle for state in self.states], list(range(self.cycles)))
+        self.assertEqual({state.reset_count for state in self.states}, {0})
+        stamps = [state.header.stamp.to_sec() for state in self.states]
+        np.testing.assert_allclose(np.diff(stamps), self.scenario.cycle_time, 0.0, 1e-8)
+
+    def test_the_object_keeps_its_distance(self):
+        compute = make_minimum_distance(self.scenario).compute
+        lowest = min(compute(object_points(state)[None]).minimum[0] for state in self.states)
+        offset = self.scenario.controller.collision.offset
+        self.assertGreaterEqual(lowest, offset - 0.001)
+        # It comes near, or nothing would be shown.
+        self.assertLess(lowest, offset + 0.02)
+
+    def test_the_positions_are_those_without_ros(self):
+        assert_same_positions(self.states, self.records, self.scenario, TOLERANCE)
+
+    def test_the_decisions_are_those_without_ros(self):
+        for name, controller in self.controllers.items():
+            decisions = controller.wait_for_cycle(self.cycles - 1)[: self.cycles]
+            self.assertEqual([each.cycle for each in decisions], list(range(self.cycles)))
+            for decision, record in zip(decisions, self.records):
+                expected = record.decisions[name]
+                where = "{} in cycle {}".format(name, record.cycle)
+                np.testing.assert_allclose(
+                    command_of(decision), expected.command, 0.0, TOLERANCE, err_msg=where
+                )
+                self.assertEqual(decision.status, expected.status, where)
+                self.assertAlmostEqual(decision.distance, record.distance, delta=TOLERANCE)
+
+
+if __name__ == "__main__":
+    run_test("lockstep", LockstepTest)
