@@ -19,10 +19,10 @@ DEADLINE = 60.0  # s, of real time, for what takes a fraction of it
 _POLLING_PERIOD = 0.01  # s, where nothing notifies
 
 
-def run_test(name, case):
-    """Run a test case as a node of this name."""
+def run_tests(name):
+    """Run the test cases of the program as a node of this name."""
     rospy.init_node(name)
-    rostest.rosrun(PACKAGE, name, case)
+    rostest.rosrun(PACKAGE, name, "__main__")
 
 
 def read_scenario(parameter="scenario"):
@@ -62,6 +62,10 @@ class Messages(list):
             topic, message_class, self._keep, buff_size=BUFFER_SIZE, tcp_nodelay=True
         )
         poll(self._subscriber.get_num_connections, "a publisher of " + topic)
+
+    def is_disconnected(self):
+        """Whether all publishers have gone."""
+        return self._subscriber.get_num_connections() == 0
 
     def _keep(self, message):
         with self._arrival:
@@ -112,9 +116,9 @@ def observe_controllers(scenario):
     }
 
 
-def observe_states(answer=None):
+def observe_states(answer=None, namespace=""):
     """State messages; a lock-step run starts with this."""
-    return Messages("state", numpy_msg(ObjectState), answer)
+    return Messages(namespace + "state", numpy_msg(ObjectState), answer)
 
 
 def velocities_of(state, scenario):

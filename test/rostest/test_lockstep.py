@@ -16,7 +16,7 @@ from observed_run import (
     observe_states,
     read_scenario,
     records_without_ros,
-    run_test,
+    run_tests,
 )
 
 from deformable_manipulation.closed_loop import make_minimum_distance
@@ -66,4 +66,4 @@ class LockstepTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_test("lockstep", LockstepTest)
+    run_tests("lockstep")

@@ -57,7 +57,7 @@ def subscribe(topic, message_class, callback):
             callback(message)
         except rospy.ROSException:
             # Messages come until the very end, when the publishers are closed already.
-            if not rospy.is_shutdown():
+            if not rospy.core.is_shutdown_requested():
                 raise
 
     return rospy.Subscriber(

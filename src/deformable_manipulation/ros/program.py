@@ -1,0 +1,95 @@
+"""Programs that a command starts and ends again, whatever happens to it."""
+
+import os
+import signal
+import subprocess
+import time
+
+_POLLING_PERIOD = 0.05  # s
+# roslaunch gives its nodes 15 s before it becomes insistent.
+_PATIENCE = 40.0  # s, from the request to end until the end is forced
+_LOG_LINES = 15
+
+
+class ProgramError(RuntimeError):
+    """A program that was started does not do what it was started for."""
+
+
+class Program:
+    """A running program; as a context manager it is ended on leaving.
+
+    It has a session of its own, so that Ctrl-C on the terminal reaches the command alone, which
+    then ends its programs in order. It is ended, too, when the command is killed.
+
+    Args:
+        name: for messages.
+        command: program and arguments.
+        log: file for all it prints.
+        environment: its environment; default: this process's.
+        pass_fds: file descriptors that it keeps.
+
+    Raises:
+        ProgramError: it cannot be started.
+    """
+
+    def __init__(self, name, command, log, environment=None, pass_fds=()):
+        self.name = name
+        self._log = log
+        with open(str(log), "wb") as output:
+            try:
+                self._process = subprocess.Popen(
+                    ["setpriv", "--pdeathsig", "TERM", *command],
+                    env=environment,
+                    stdin=subprocess.DEVNULL,
+                    stdout=output,
+                    stderr=subprocess.STDOUT,
+                    start_new_session=True,
+                    pass_fds=pass_fds,
+                )
+            except OSError as error:
+                raise ProgramError(f"{name} cannot be started: {error}") from error
+
+    def check(self):
+        """Raise ProgramError if the program has ended by itself."""
+        if self._process.poll() is not None:
+            raise self.error(f"{self.name} ended with exit status {self._process.returncode}")
+
+    def error(self, message):
+        """A ProgramError with the end of what the program printed."""
+        with open(str(self._log), errors="replace") as log:
+            lines = log.read().strip().splitlines()[-_LOG_LINES:]
+        printed = "\n  ".join([f"The last that {self.name} printed:"] + lines)
+        return ProgramError(f"{message}.\n{printed}" if lines else f"{message}.")
+
+    def wait_until(self, condition, timeout, complaint):
+        """Wait until ``condition()`` is true; its value.
+
+        Raises:
+            ProgramError: the program ended, or ``timeout`` [s] went by; then says ``complaint``.
+        """
+        deadline = time.monotonic() + timeout
+        while True:
+            value = condition()
+            if value:
+                return value
+            self.check()
+            if time.monotonic() > deadline:
+                raise self.error(f"{complaint} within {timeout:g} s")
+            time.sleep(_POLLING_PERIOD)
+
+    def stop(self):
+        """End the program, by force if it does not heed the request."""
+        for number, patience in ((signal.SIGTERM, _PATIENCE), (signal.SIGKILL, None)):
+            if self._process.poll() is not None:
+                return
+            os.killpg(self._process.pid, number)
+            try:
+                self._process.wait(patience)
+            except subprocess.TimeoutExpired:
+                continue
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
