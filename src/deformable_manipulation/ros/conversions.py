@@ -57,7 +57,9 @@ def to_observation(state, distances, scenario) -> Observation:
     copies = len(state.displaced_agents)
     displaced = np.asarray(state.displaced_agents)
     if ((displaced < -1) | (displaced >= len(state.agents))).any():
-        raise MessageError(f"displaced_agents: {displaced.tolist()}, but {len(state.agents)} agents")
+        raise MessageError(
+            f"displaced_agents: {displaced.tolist()}, but there are {len(state.agents)} agents"
+        )
     return Observation(
         time=state.cycle * scenario.cycle_time,
         cycle=state.cycle,
@@ -158,7 +160,7 @@ def to_twist(message, state, velocity):
 
 
 def _flags(values, name, count):
-    """Flags (count,) from an array of uint8, which Python gets as bytes, with rospy.numpy_msg too."""
+    """Flags (count,) from an array of uint8, which rospy gives as bytes."""
     return _reshaped(np.frombuffer(bytes(values), dtype=np.uint8), name, (count,)) != 0
 
 

@@ -27,7 +27,7 @@ def obstacle_markers(obstacles, frame, half_width=0.25):
 
 
 def _prism(obstacle, half_width):
-    """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards for the light."""
+    """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards."""
     plane = PlaneFrame(obstacle.plane, obstacle.translation, obstacle.rotation, np.zeros(2))
     polygon = shapely.geometry.polygon.orient(shapely.Polygon(obstacle.points))
     ring = shapely.get_coordinates(polygon)[:-1]
