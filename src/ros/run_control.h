@@ -23,7 +23,7 @@ class RunControl {
   //! Whether the simulation must not go on.
   bool halted() const { return paused_ && steps_ == 0; }
 
-  //! A cycle has been made.
+  //! A cycle begins. Steps asked for from then on come after it.
   void countCycle();
 
  private:

@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kWarningPeriod = 5.0;  // s
 
+// States kept for a subscriber that is slow for a moment: a recorder must not lose any.
+constexpr int kQueue = 100;
+
 // Simulated time does not begin at zero, which in ROS means "not known yet".
 constexpr double kStartOfTime = 1.0;  // s
 
@@ -33,7 +36,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
              "simulation.substeps help.");
   }
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
-  state_publisher_ = node_.advertise<ObjectState>("state", 1, latch);
+  state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
   if (options_.lockstep) {
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1, latch);
   }
@@ -55,13 +58,13 @@ void Simulator::run() {
         link.reset();
       }
     }
+    control_.countCycle();
     if (agentsAreTrue()) {
       publish();
     }
     simulation_.advance();
     options_.lockstep ? awaitCommands() : awaitTick();
     applyInputs();
-    control_.countCycle();
     awaitPermission();
   }
   if (ros::ok()) {

@@ -1,23 +1,23 @@
 """Runs a scenario in one process, without ROS, and records it."""
 
 import argparse
-import contextlib
-import signal
 import sys
-import threading
 import time
 from pathlib import Path
-from typing import Iterator, Optional, Sequence
+from typing import Optional, Sequence
 
 from deformable_manipulation.commands.check_scenario import override
+from deformable_manipulation.commands.interruption import (
+    exit_status,
+    interrupts_ignored,
+    terminate_as_interrupt,
+)
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.recording import RecordingError, RunRecorder
 from deformable_manipulation.recording.summary import describe
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.spec import Scenario
 
-INTERRUPTED = 128 + signal.SIGINT
-TERMINATED = 128 + signal.SIGTERM
 EXAMPLES = """examples:
   run_scenario rope_one_assistant
   run_scenario my_scenario.yaml --output output/trial --force
@@ -25,10 +25,6 @@ EXAMPLES = """examples:
   run_scenario rope_one_assistant --set simulation.duration=20 \\
       --set controller.collision.offset=0.1
 """
-
-
-class _Terminated(KeyboardInterrupt):
-    """The process was asked to end by SIGTERM."""
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -47,7 +43,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
-    with _terminate_as_interrupt():
+    with terminate_as_interrupt():
         return _run(loop, recorder)
 
 
@@ -104,7 +100,7 @@ def _run(loop, recorder: RunRecorder) -> int:
         completed = True
         code = 0
     except KeyboardInterrupt as interrupt:
-        code = TERMINATED if isinstance(interrupt, _Terminated) else INTERRUPTED
+        code = exit_status(interrupt)
     except RuntimeError as error:
         # Of the simulation: a state that is no longer finite.
         print(f"\nrun_scenario: the run stopped: {error}", file=sys.stderr)
@@ -117,7 +113,7 @@ def _run(loop, recorder: RunRecorder) -> int:
 
 def _finish(recorder: RunRecorder, wall_time: float, completed: bool) -> bool:
     """Write the run and tell its main numbers; false where files could not be written."""
-    with _interrupts_ignored():
+    with interrupts_ignored():
         try:
             summary = recorder.finish(wall_time, completed)
         except RecordingError as error:
@@ -126,38 +122,6 @@ def _finish(recorder: RunRecorder, wall_time: float, completed: bool) -> bool:
     print(describe(summary))
     print(f"written to {recorder.directory}")
     return True
-
-
-@contextlib.contextmanager
-def _terminate_as_interrupt() -> Iterator[None]:
-    """SIGTERM (a batch system's or timeout's) ends the run as Ctrl-C does: the data is kept."""
-
-    def interrupt(number, frame):
-        raise _Terminated
-
-    with _signal_handler(signal.SIGTERM, interrupt):
-        yield
-
-
-@contextlib.contextmanager
-def _interrupts_ignored() -> Iterator[None]:
-    """A second, impatient Ctrl-C must not lose what is being written."""
-    with _signal_handler(signal.SIGINT, signal.SIG_IGN):
-        with _signal_handler(signal.SIGTERM, signal.SIG_IGN):
-            yield
-
-
-@contextlib.contextmanager
-def _signal_handler(number: int, handler) -> Iterator[None]:
-    # Only the main thread may set handlers; elsewhere no signal reaches this code anyway.
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    previous = signal.signal(number, handler)
-    try:
-        yield
-    finally:
-        signal.signal(number, previous)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,9 @@ from deformable_manipulation.scenario import ScenarioError, scenario_from_mappin
 # a buffer of this size; a smaller one makes it fall behind.
 BUFFER_SIZE = 1 << 22  # bytes
 
+# Messages kept for a subscriber that is slow for a moment: a recorder must not lose any.
+QUEUE_SIZE = 100
+
 
 def start(name):
     """Start a node and read the checked scenario.
@@ -63,6 +66,19 @@ def subscribe(topic, message_class, callback):
     return rospy.Subscriber(
         topic, message_class, call, queue_size=1, buff_size=BUFFER_SIZE, tcp_nodelay=True
     )
+
+
+def await_subscribers(publisher):
+    """Wait until a publisher has as many subscribers as the parameter ~output_subscribers says.
+
+    A lock-step run starts when all nodes have subscribed to the state; a node that waits before
+    it does keeps its first messages from being lost to a recorder.
+    """
+    wanted = rospy.get_param("~output_subscribers", 0)
+    stopped = threading.Event()
+    rospy.on_shutdown(stopped.set)
+    while publisher.get_num_connections() < wanted and not stopped.wait(0.01):
+        rospy.loginfo_throttle(5.0, f"Waiting for {wanted} subscribers of {publisher.name}.")
 
 
 def every(period, callback):

@@ -1,5 +1,6 @@
 """A ROS master of one's own beside whatever runs on the machine."""
 
+import contextlib
 import os
 import socket
 from pathlib import Path
@@ -12,16 +13,18 @@ _TIMEOUT = 60.0  # s, for the master to answer
 _ATTEMPTS = 3
 
 
-def start_private_master(directory):
-    """Start a master on a free port and make it this process's and its programs' master.
+@contextlib.contextmanager
+def private_master(directory):
+    """A master on a free port, which this process and its programs use; for a with statement.
 
-    Changes the environment, which rospy reads: to be called before a node is initialized.
+    Changes this process's environment, which rospy reads: to be entered before a node is
+    initialized.
 
     Args:
         directory: existing folder for logs.
 
-    Returns:
-        Program, for the caller to stop.
+    Yields:
+        Program: the master.
 
     Raises:
         ProgramError: it does not start.
@@ -30,21 +33,21 @@ def start_private_master(directory):
     os.environ["ROS_HOSTNAME"] = "localhost"
     os.environ.pop("ROS_IP", None)
     os.environ.pop("ROS_NAMESPACE", None)
-    for attempt in range(_ATTEMPTS):
-        port = _free_port()
-        os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
-        # It refuses to start where another process was faster in taking the port.
-        program = Program("roscore", ["roscore", "-p", str(port)], Path(directory) / "roscore.log")
-        try:
-            program.wait_until(_is_ready, _TIMEOUT, "The ROS master did not answer")
-            return program
-        except ProgramError:
-            program.stop()
-            if attempt == _ATTEMPTS - 1:
-                raise
-        except BaseException:
-            program.stop()
-            raise
+    with contextlib.ExitStack() as stack:
+        for attempt in range(_ATTEMPTS):
+            port = _free_port()
+            os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
+            # It refuses to start where another process was faster in taking the port.
+            command = ["roscore", "-p", str(port)]
+            program = Program("roscore", command, Path(directory) / "roscore.log")
+            stack.enter_context(program)
+            try:
+                program.wait_until(_is_ready, _TIMEOUT, "The ROS master did not answer")
+                break
+            except ProgramError:
+                if attempt == _ATTEMPTS - 1:
+                    raise
+        yield program
 
 
 def _is_ready():

@@ -1,5 +1,6 @@
 """A screen without a monitor, and what is on it."""
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -19,38 +20,48 @@ _XWD_VERSION = 7
 _XWD_COLOR_SIZE = 12  # bytes, an entry of the color map
 _LEAST_SIGNIFICANT_FIRST = 0
 
+# Of the screen that the command itself was started from.
+_OTHER_SCREENS = ("WAYLAND_DISPLAY", "XAUTHORITY", "QT_SCALE_FACTOR", "QT_SCREEN_SCALE_FACTORS")
 
-class VirtualDisplay:
-    """An X server (Xvfb) that draws into memory; a context manager.
+
+@contextlib.contextmanager
+def virtual_display(size, directory):
+    """An X server (Xvfb) that draws into memory, for the time of a with statement.
 
     Args:
         size: width and height in pixels.
         directory: existing folder for its files.
 
+    Yields:
+        VirtualDisplay
+
     Raises:
         ProgramError: it does not start.
     """
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    # The server chooses a free display number and writes it when it is ready.
+    command = ["Xvfb", "-displayfd", str(writing), "-fbdir", str(directory), "-screen", "0"]
+    command += ["{}x{}x24".format(*size), "-nolisten", "tcp", "-noreset"]
+    log = Path(directory) / "xvfb.log"
+    with open(reading, "rb") as answer, open(writing, "wb"):
+        with Program("Xvfb", command, log, pass_fds=(writing,)) as server:
+            number = server.wait_until(answer.read, _TIMEOUT, "Xvfb was not ready")
+            name = ":" + number.decode().strip()
+            yield VirtualDisplay(name, Path(directory) / "Xvfb_screen0")
 
-    def __init__(self, size, directory):
-        self.size = size
-        self._frame = Path(directory) / "Xvfb_screen0"
-        reading, writing = os.pipe()
-        with open(reading, "rb") as ready:
-            try:
-                self._server = Program(
-                    "Xvfb",
-                    # The server chooses a free display number and writes it when it is ready.
-                    ["Xvfb", "-displayfd", str(writing), "-fbdir", str(directory)]
-                    + ["-screen", "0", "{}x{}x24".format(*size), "-nolisten", "tcp", "-noreset"],
-                    Path(directory) / "xvfb.log",
-                    pass_fds=(writing,),
-                )
-            finally:
-                os.close(writing)
-            os.set_blocking(reading, False)
-            with _stopped_on_error(self._server):
-                number = self._server.wait_until(ready.read, _TIMEOUT, "Xvfb was not ready")
-        self.name = ":" + number.decode().strip()
+
+class VirtualDisplay:
+    """A screen in memory.
+
+    Args:
+        name: as programs know it, such as ``:1``.
+        frame: file with the picture, an X window dump.
+    """
+
+    def __init__(self, name, frame):
+        self.name = name
+        self._frame = frame
 
     def environment(self):
         """This process's environment for a program on this display, with OpenGL in software."""
@@ -61,27 +72,6 @@ class VirtualDisplay:
     def pixels(self):
         """What is on the screen, (height, width, 3) red, green, blue of 0 to 255."""
         return read_window_dump(self._frame.read_bytes())
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._server.stop()
-
-
-_OTHER_SCREENS = ("WAYLAND_DISPLAY", "XAUTHORITY", "QT_SCALE_FACTOR", "QT_SCREEN_SCALE_FACTORS")
-
-
-class _stopped_on_error:
-    def __init__(self, program):
-        self._program = program
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, kind, *_):
-        if kind is not None:
-            self._program.stop()
 
 
 def read_window_dump(data):

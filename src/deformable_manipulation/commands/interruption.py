@@ -1,0 +1,50 @@
+"""How commands end when they are asked to: by Ctrl-C or by a signal."""
+
+import contextlib
+import signal
+import threading
+from typing import Iterator
+
+INTERRUPTED = 128 + signal.SIGINT  # exit status
+TERMINATED = 128 + signal.SIGTERM
+
+
+class Terminated(KeyboardInterrupt):
+    """The process was asked to end by SIGTERM."""
+
+
+def exit_status(interrupt: KeyboardInterrupt) -> int:
+    """The exit status of a command that was interrupted."""
+    return TERMINATED if isinstance(interrupt, Terminated) else INTERRUPTED
+
+
+@contextlib.contextmanager
+def terminate_as_interrupt() -> Iterator[None]:
+    """SIGTERM (a batch system's or timeout's) ends the command as Ctrl-C does."""
+
+    def interrupt(number, frame):
+        raise Terminated
+
+    with _signal_handler(signal.SIGTERM, interrupt):
+        yield
+
+
+@contextlib.contextmanager
+def interrupts_ignored() -> Iterator[None]:
+    """A second, impatient Ctrl-C must not cut short what is done at the end."""
+    with _signal_handler(signal.SIGINT, signal.SIG_IGN):
+        with _signal_handler(signal.SIGTERM, signal.SIG_IGN):
+            yield
+
+
+@contextlib.contextmanager
+def _signal_handler(number: int, handler) -> Iterator[None]:
+    # Only the main thread may set handlers; elsewhere no signal reaches this code anyway.
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    previous = signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        signal.signal(number, previous)

@@ -1,0 +1,71 @@
+"""Pictures of a screen: whether they show something, when they have come to rest, saving them."""
+
+import time
+
+import numpy as np
+
+_CLEARLY_DIFFERENT = 40  # of 255, in a channel; a faint grid is less
+_SHADES = 32  # of 256: colors are told apart in steps of this size
+_LEAST_SHARE = 5e-4  # of the picture, for something that is shown and for a color
+_LEAST_COLORS = 3  # beside the background
+_PERIOD = 0.1  # s between looks
+_SAME_LOOKS = 5  # in a row, for a picture at rest
+
+
+def shows_scene(pixels):
+    """Whether a picture (height, width, 3) holds more than a background and a faint grid.
+
+    Several colors that clearly differ from the most frequent one, each in enough pixels.
+    """
+    colors = np.asarray(pixels, dtype=np.uint8).reshape(-1, 3)
+    codes = (colors // _SHADES).astype(np.int64) @ [64, 8, 1]
+    background = np.median(colors[codes == np.bincount(codes).argmax()], axis=0)
+    different = np.abs(colors - background).max(axis=1) > _CLEARLY_DIFFERENT
+    counts = np.bincount(codes[different], minlength=1)
+    return np.count_nonzero(counts >= _LEAST_SHARE * len(colors)) >= _LEAST_COLORS
+
+
+class PictureAtRest:
+    """Looks at a screen until the picture shows something and no longer changes.
+
+    Args:
+        look: gives the picture (height, width, 3) as it is now.
+        clock: s, never decreasing.
+    """
+
+    def __init__(self, look, clock=time.monotonic):
+        self._look = look
+        self._clock = clock
+        self._last_look = -np.inf
+        self._same = 0
+        self.picture = None
+
+    def __call__(self):
+        """Look again if it is time to; the picture once it is at rest, until then None."""
+        now = self._clock()
+        if now - self._last_look < _PERIOD:
+            return None
+        self._last_look = now
+        picture = self._look()
+        same = self.picture is not None and np.array_equal(picture, self.picture)
+        self._same = self._same + 1 if same else 1
+        self.picture = picture
+        return picture if self._same >= _SAME_LOOKS and shows_scene(picture) else None
+
+    @property
+    def is_blank(self):
+        """Whether nothing was to be seen at the last look."""
+        return self.picture is None or not shows_scene(self.picture)
+
+
+def save_png(picture, path, description):
+    """Write a picture (height, width, 3) with a description in its metadata; makes the folder.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    # Imported late: takes longer to load than a mistake in the arguments to be told.
+    from matplotlib.image import imsave
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    imsave(str(path), picture, metadata={"Description": description})

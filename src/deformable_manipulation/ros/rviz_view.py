@@ -1,0 +1,109 @@
+"""RViz that shows nothing but its 3D view, in the size of the screen."""
+
+import contextlib
+import copy
+import xmlrpc.client
+from pathlib import Path
+
+import rosgraph
+import yaml
+
+from deformable_manipulation.ros.program import Program, ProgramError
+
+_NODE = "/snapshot_view"
+_FRAME_RATE = 10  # Hz, what is still needs no more
+
+
+def read_configuration(path, view, size):
+    """An RViz configuration file's content for a bare 3D view, as YAML.
+
+    Args:
+        path: the file.
+        view: name of one of its saved views; None: the one that it shows.
+        size: width and height in pixels.
+
+    Raises:
+        ProgramError: the file cannot be read or has no view of that name.
+    """
+    try:
+        configuration = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        return yaml.safe_dump(bare_view(configuration, view, size))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
+        raise ProgramError(f"{path} is no RViz configuration: {error!r}") from error
+
+
+def bare_view(configuration, view, size):
+    """A copy of a configuration with one view filling a window of the given size.
+
+    Raises:
+        ProgramError: there is no saved view of that name.
+        KeyError, TypeError: it is not the configuration of RViz.
+    """
+    result = copy.deepcopy(configuration)
+    manager = result["Visualization Manager"]
+    if view is not None:
+        saved = {each["Name"]: each for each in manager["Views"].get("Saved") or []}
+        if view not in saved:
+            names = ", ".join(f"'{name}'" for name in saved) or "none"
+            raise ProgramError(f"--view '{view}': no view of this name is saved; saved: {names}")
+        manager["Views"]["Current"] = saved[view]
+    manager["Global Options"]["Frame Rate"] = _FRAME_RATE
+    width, height = size
+    result["Panels"] = []
+    result["Window Geometry"] = {
+        "X": 0,
+        "Y": 0,
+        "Width": width,
+        "Height": height,
+        "Hide Left Dock": True,
+        "Hide Right Dock": True,
+    }
+    return result
+
+
+@contextlib.contextmanager
+def rviz_view(configuration, display, directory):
+    """RViz on a virtual display, for the time of a with statement.
+
+    Args:
+        configuration: text of an RViz configuration.
+        display: VirtualDisplay.
+        directory: existing folder for its files.
+
+    Yields:
+        RvizView
+
+    Raises:
+        ProgramError: it does not start.
+    """
+    path = Path(directory) / "snapshot.rviz"
+    path.write_text(configuration, encoding="utf-8")
+    environment = display.environment()
+    environment["HOME"] = str(directory)  # the user's list of recent files stays as it is
+    command = ["rviz", "--fullscreen", "--splash-screen", "", "-d", str(path)]
+    command.append("__name:=" + _NODE.strip("/"))
+    with Program("RViz", command, Path(directory) / "rviz.log", environment) as program:
+        yield RvizView(program)
+
+
+class RvizView:
+    """A running RViz and what it is connected to."""
+
+    def __init__(self, program):
+        self.program = program
+        self._master = rosgraph.Master("/snapshot_watch")
+
+    def publishers(self, topic):
+        """Names of the nodes that publish a topic, if RViz receives it from all of them."""
+        try:
+            nodes = dict(self._master.getSystemState()[0]).get(topic, [])
+            addresses = {self._master.lookupNode(node) for node in nodes}
+            return nodes if addresses <= self._sources(topic) else []
+        except (rosgraph.MasterException, OSError, xmlrpc.client.Error):
+            return []  # a node has just come or gone
+
+    def _sources(self, topic):
+        """Addresses of the nodes that it receives a topic from."""
+        node = xmlrpc.client.ServerProxy(self._master.lookupNode(_NODE))
+        _, _, connections = node.getBusInfo("/snapshot_watch")
+        return {each[1] for each in connections if each[2] == "i" and each[4] == topic and each[5]}
