@@ -27,7 +27,7 @@ def make_body(scenario: Scenario) -> _pbd.Body:
 
 
 def perturbations(scenario: Scenario):
-    """Displacements (agent index, (3,) [m]) of the copies (paper, section V).
+    """Displacements (agent index, (3,) [m]) of the copies (paper, section VI).
 
     Per assistant and axis one for forward differences, two for central ones.
     """

@@ -1,8 +1,7 @@
 #include "reference_motion.h"
 
-#include <algorithm>
-
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace deformable_manipulation {
 namespace pbd {

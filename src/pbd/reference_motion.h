@@ -16,7 +16,7 @@ void carriedMotion(const std::vector<HeldPoint>& holds, int n, double* velocity,
 
 //! A rod's segment as a rigid body.
 struct SegmentMotion {
-  Vector3 position;          // m
+  Vector3 position;  // m
   Vector3 tangent;
   Vector3 velocity;          // m/s
   Vector3 angular_velocity;  // rad/s

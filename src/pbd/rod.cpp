@@ -298,13 +298,9 @@ void Rod::points(double* to) const {
   }
 }
 
-void Rod::positions(int copy, double* to) const {
-  unpack(state_->groups[copy / kLanes].position, copy % kLanes, to);
-}
+void Rod::positions(int copy, double* to) const { unpack(state_->groups[copy / kLanes].position, copy % kLanes, to); }
 
-void Rod::velocities(int copy, double* to) const {
-  unpack(state_->groups[copy / kLanes].velocity, copy % kLanes, to);
-}
+void Rod::velocities(int copy, double* to) const { unpack(state_->groups[copy / kLanes].velocity, copy % kLanes, to); }
 
 bool Rod::orientations(int copy, double* to) const {
   unpack(state_->groups[copy / kLanes].orientation, copy % kLanes, to);

@@ -44,9 +44,9 @@ DM_INLINE Vec3 applyInverseInertia(const Inverse& inverse, const Vec3& d, const 
 
 //! Geometry of a joint at its present configuration.
 struct Joint {
-  Vec3 d0, d1;     // tangents
-  Vec3 k;          // vector part of dq
-  Pack w;          // scalar part of dq, not negative
+  Vec3 d0, d1;  // tangents
+  Vec3 k;       // vector part of dq
+  Pack w;       // scalar part of dq, not negative
   Pack inverse_length;
 
   //! B v, where B is the derivative of the second part of C by the second segment's rotation.

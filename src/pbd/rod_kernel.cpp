@@ -13,7 +13,10 @@ namespace {
 class PackOfCopies {
  public:
   PackOfCopies(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
-      : in_(input), s_(lanes), lane_(first_lane), half_length_(broadcast(0.5 * input.segment_length)),
+      : in_(input),
+        s_(lanes),
+        lane_(first_lane),
+        half_length_(broadcast(0.5 * input.segment_length)),
         inverse_length_(broadcast(1.0 / input.segment_length)),
         compliance_{broadcast(input.bending_compliance), broadcast(input.torsion_compliance),
                     broadcast(input.axial_compliance), broadcast(input.floor_compliance)} {}
@@ -39,7 +42,7 @@ class PackOfCopies {
       }
     }
     placeHeldSegments();
-    for (double* m = s_.multiplier.data() + lane_, *end = s_.multiplier.data() + s_.multiplier.size(); m < end;
+    for (double *m = s_.multiplier.data() + lane_, *end = s_.multiplier.data() + s_.multiplier.size(); m < end;
          m += kLanes) {
       store(m, Pack{});
     }
@@ -72,8 +75,7 @@ class PackOfCopies {
       const Vec3 omega = (2.0 * rate * signOf(dq.w)) * dq.v;
       const Vec3 v_reference = broadcast3(in_.reference_velocity + 3 * i);
       const Vec3 omega_reference = broadcast3(in_.reference_angular_velocity + 3 * i);
-      store3(&s_.velocity[at3(i)], kLanes,
-             in_.inverse_mass[i] > 0.0 ? v_reference + decay * (v - v_reference) : v);
+      store3(&s_.velocity[at3(i)], kLanes, in_.inverse_mass[i] > 0.0 ? v_reference + decay * (v - v_reference) : v);
       store3(&s_.angular_velocity[at3(i)], kLanes,
              in_.inverse_transverse[i] > 0.0 ? omega_reference + decay * (omega - omega_reference) : omega);
     }
@@ -291,9 +293,7 @@ void substepDirect(const RodSubstepInput& input, RodLanes& lanes) {
 
 }  // namespace
 
-RodKernel rodKernel() {
-  return {DM_NAME_OF(DEFORMABLE_MANIPULATION_ISA), substepGaussSeidel, substepDirect};
-}
+RodKernel rodKernel() { return {DM_NAME_OF(DEFORMABLE_MANIPULATION_ISA), substepGaussSeidel, substepDirect}; }
 
 }  // namespace DEFORMABLE_MANIPULATION_ISA
 }  // namespace pbd

@@ -29,30 +29,30 @@ struct HeldSegment {
   alignas(64) double position[3 * kLanes];  // m, at the end of the substep, one per lane
   int segment;
   bool clamped;
-  double orientation[4];        // at the end of the substep, where clamped
+  double orientation[4];  // at the end of the substep, where clamped
 };
 
 //! What a substep needs besides the state.
 struct RodSubstepInput {
   int segments;
-  double h;                 // s
-  double segment_length;    // m
-  double gravity[3];        // m/s^2
-  double velocity_decay;    // factor on motion relative to the reference in a substep
-  double inertia_ratio;     // (axial - transverse) / transverse moment of inertia
-  double bending_compliance;   // 1 / (l E I h^2)
-  double torsion_compliance;   // 1 / (l G J h^2)
-  double axial_compliance;     // l / (E A h^2)
-  double floor_compliance;     // keeps the joint's matrix regular when both of its segments are held
-  const double* inverse_mass;        // [N] 1/kg, zero where held
-  const double* inverse_transverse;  // [N] 1/(kg m^2), zero where clamped
-  const double* inverse_axial;       // [N] 1/(kg m^2), zero where clamped
-  const unsigned char* joint_active;  // [N - 1] false between two held segments
+  double h;                                  // s
+  double segment_length;                     // m
+  double gravity[3];                         // m/s^2
+  double velocity_decay;                     // factor on motion relative to the reference in a substep
+  double inertia_ratio;                      // (axial - transverse) / transverse moment of inertia
+  double bending_compliance;                 // 1 / (l E I h^2)
+  double torsion_compliance;                 // 1 / (l G J h^2)
+  double axial_compliance;                   // l / (E A h^2)
+  double floor_compliance;                   // keeps the joint's matrix regular when both of its segments are held
+  const double* inverse_mass;                // [N] 1/kg, zero where held
+  const double* inverse_transverse;          // [N] 1/(kg m^2), zero where clamped
+  const double* inverse_axial;               // [N] 1/(kg m^2), zero where clamped
+  const unsigned char* joint_active;         // [N - 1] false between two held segments
   const double* reference_velocity;          // [N x 3] m/s, motion of the held points carried along the rod
   const double* reference_angular_velocity;  // [N x 3] rad/s
   const HeldSegment* held;
   int held_count;
-  double* workspace;        // direct solver: rodWorkspaceSize() numbers, aligned
+  double* workspace;  // direct solver: rodWorkspaceSize() numbers, aligned
 };
 
 //! Numbers in the direct solver's workspace: a 6 x 6 factor, a 6 x 6 coupling and a right-hand side per joint.

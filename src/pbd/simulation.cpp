@@ -84,8 +84,8 @@ void Simulation::advance() {
     body_->step(clock_.time_step, clock_.substeps);
   }
   for (AgentState& state : states_) {
-    state.pose = state.particle >= 0 ? body_->held(state.particle).pose
-                                     : moved(state.pose, state.command, clock_.cycleTime());
+    state.pose =
+        state.particle >= 0 ? body_->held(state.particle).pose : moved(state.pose, state.command, clock_.cycleTime());
     state.twist = state.command;
   }
   ++cycle_;
@@ -150,8 +150,9 @@ void Simulation::hold(int agent, int particle, Hold type) {
   }
   const double distance = (body_->pose(particle).position - holder.pose.position).norm();
   if (distance > kGripReach) {
-    throw std::logic_error("particle " + std::to_string(particle) + " is " + std::to_string(distance) + " m away from " +
-                           agents_[agent].name + "; it can grip up to " + std::to_string(kGripReach) + " m");
+    throw std::logic_error("particle " + std::to_string(particle) + " is " + std::to_string(distance) +
+                           " m away from " + agents_[agent].name + "; it can grip up to " + std::to_string(kGripReach) +
+                           " m");
   }
   body_->hold(particle, type);
   holder.particle = particle;

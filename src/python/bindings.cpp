@@ -72,8 +72,8 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
   p.torsion_modulus = torsion_modulus;
   p.stretch = choose<Stretch>("stretch", stretch, {{"zero", Stretch::ZERO}, {"from_moduli", Stretch::FROM_MODULI}});
   p.damping = damping;
-  p.solver = choose<RodSolver>("solver", solver,
-                               {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
+  p.solver =
+      choose<RodSolver>("solver", solver, {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
   p.gravity = gravity;
   p.pose = {position, toQuaternion(orientation)};
   return std::make_unique<Rod>(p);
@@ -256,8 +256,7 @@ void bindBody(py::module_& module) {
           },
           py::arg("copy") = 0, "Particle orientations (N, 4) of a copy (rods).")
       .def(
-          "wrench", [](const Body& body, int particle) { return toPair(body.wrench(particle)); },
-          py::arg("particle"),
+          "wrench", [](const Body& body, int particle) { return toPair(body.wrench(particle)); }, py::arg("particle"),
           "Force (3,) [N] and torque (3,) [N m] about the held point that the object exerts on its agent.");
 
   py::class_<Rod, Body>(module, "Rod",
@@ -328,17 +327,15 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly("reset_count", &Simulation::resetCount)
       .def_property_readonly("time", &Simulation::time, "Seconds since the start.")
       .def(
-          "points", [](const Simulation& simulation, const py::object& out) { return pointsOf(simulation.body(), out); },
+          "points",
+          [](const Simulation& simulation, const py::object& out) { return pointsOf(simulation.body(), out); },
           py::arg("out") = py::none(), "Geometry points (C, P, 3) [m]; see Body.points.")
       .def(
-          "positions",
-          [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.pose(i).position; }); },
+          "positions", [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.pose(i).position; }); },
           "Held points (A, 3) [m].")
       .def(
           "orientations",
-          [](const Simulation& s) {
-            return perAgent(s, 4, [&](int i) { return s.pose(i).orientation.coeffs(); });
-          },
+          [](const Simulation& s) { return perAgent(s, 4, [&](int i) { return s.pose(i).orientation.coeffs(); }); },
           "Orientations (A, 4) of the held particles.")
       .def(
           "velocities", [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.twist(i).linear; }); },

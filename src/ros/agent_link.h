@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/ros.h>
+
+#include <string>
 
 #include "command_inbox.h"
 #include "deformable_manipulation/pbd/types.h"

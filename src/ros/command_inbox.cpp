@@ -19,7 +19,8 @@ std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, co
   } else if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
     why << "it is not finite";
   } else if (command.header.stamp > latest) {
-    why << "its stamp " << command.header.stamp << " is in the future; set it to that of the state answered, and keep the computers' clocks together";
+    why << "its stamp " << command.header.stamp
+        << " is in the future; set it to that of the state answered, and keep the computers' clocks together";
   } else if (received_ && (command.header.stamp < stamp_ || (command.header.stamp == stamp_ && !isStop(twist)))) {
     why << "its stamp " << command.header.stamp << " is not newer than the last one, " << stamp_;
   } else {

@@ -8,10 +8,10 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kLeastWidth = 0.012;   // m, so that a thin rope can be seen
-constexpr double kCopyWidth = 0.006;    // m
+constexpr double kLeastWidth = 0.012;    // m, so that a thin rope can be seen
+constexpr double kCopyWidth = 0.006;     // m
 constexpr double kAgentDiameter = 0.07;  // m
-constexpr double kTextHeight = 0.08;    // m
+constexpr double kTextHeight = 0.08;     // m
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a) {
   std_msgs::ColorRGBA result;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <visualization_msgs/MarkerArray.h>
+
+#include <string>
 
 #include "deformable_manipulation/ObjectState.h"
 

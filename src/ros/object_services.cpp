@@ -72,8 +72,7 @@ bool ObjectServices::setPerturbations(SetPerturbations::Request& request, SetPer
   });
 }
 
-bool ObjectServices::clearPerturbations(ClearPerturbations::Request& request,
-                                        ClearPerturbations::Response& response) {
+bool ObjectServices::clearPerturbations(ClearPerturbations::Request& request, ClearPerturbations::Response& response) {
   return answer(response, [&] {
     std::vector<int> agents;
     for (const std::string& name : request.agents) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <ros/ros.h>
+
+#include <vector>
 
 #include "deformable_manipulation/ClearPerturbations.h"
 #include "deformable_manipulation/HoldParticle.h"

@@ -38,13 +38,9 @@ std::string PoseInbox::receive(const geometry_msgs::PoseStamped& message) {
   return why.str();
 }
 
-bool PoseInbox::silent() const {
-  return !received_ || (ros::SteadyTime::now() - received_at_).toSec() > timeout_;
-}
+bool PoseInbox::silent() const { return !received_ || (ros::SteadyTime::now() - received_at_).toSec() > timeout_; }
 
-bool PoseInbox::fresh(const ros::Time& now) const {
-  return !silent() && std::abs((now - stamp_).toSec()) <= timeout_;
-}
+bool PoseInbox::fresh(const ros::Time& now) const { return !silent() && std::abs((now - stamp_).toSec()) <= timeout_; }
 
 pbd::Twist PoseInbox::twistFrom(const pbd::Pose& present, double time) const {
   const Eigen::AngleAxisd rotation(pose_.orientation * present.orientation.conjugate());

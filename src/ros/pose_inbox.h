@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
-
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/time.h>
+
+#include <string>
 
 #include "deformable_manipulation/pbd/types.h"
 

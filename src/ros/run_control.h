@@ -1,10 +1,10 @@
 #pragma once
 
-#include <vector>
-
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+
+#include <vector>
 
 #include "deformable_manipulation/Step.h"
 

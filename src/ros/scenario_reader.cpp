@@ -120,8 +120,8 @@ pbd::RodParameters readRod(const Section& object, const Section& simulation) {
   rod.segments = object.integer("segments");
   rod.young_modulus = object.number("young_modulus");
   rod.torsion_modulus = object.number("torsion_modulus");
-  rod.stretch =
-      object.choice<pbd::Stretch>("stretch", {{"zero", pbd::Stretch::ZERO}, {"from_moduli", pbd::Stretch::FROM_MODULI}});
+  rod.stretch = object.choice<pbd::Stretch>("stretch",
+                                            {{"zero", pbd::Stretch::ZERO}, {"from_moduli", pbd::Stretch::FROM_MODULI}});
   rod.damping = object.number("damping");
   rod.pose = object.section("pose").pose("position", "orientation");
   rod.gravity = simulation.vector<3>("gravity");

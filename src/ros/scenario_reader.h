@@ -1,9 +1,9 @@
 #pragma once
 
+#include <XmlRpcValue.h>
+
 #include <string>
 #include <vector>
-
-#include <XmlRpcValue.h>
 
 #include "agent_link.h"
 #include "deformable_manipulation/pbd/rod_parameters.h"

@@ -32,8 +32,9 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
       control_(node_),
       visualization_(node_, 2.0 * scenario.rod.radius, options.tf_prefix) {
   if (!simulation_.settled()) {
-    ROS_WARN("The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "
-             "simulation.substeps help.");
+    ROS_WARN(
+        "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "
+        "simulation.substeps help.");
   }
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
@@ -95,8 +96,8 @@ bool Simulator::agentsAreTrue() const {
 }
 
 void Simulator::publish() {
-  const ros::Time stamp = options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime())
-                                            : ros::Time::now();
+  const ros::Time stamp =
+      options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime()) : ros::Time::now();
   if (stamp < state_.header.stamp) {
     ROS_WARN("The clock was set back by %.3f s; commands count from now on.", (state_.header.stamp - stamp).toSec());
     for (AgentLink& link : links_) {
@@ -123,8 +124,8 @@ void Simulator::awaitCommands() {
   while (ros::ok() && !control_.resetWanted() && !unanswered().empty()) {
     spinFor(0.1);
     if (SteadyClock::now() > warn_at) {
-      ROS_WARN_STREAM("Lock-step: still waiting for the command of cycle " << state_.cycle << " from "
-                                                                           << unanswered() << ".");
+      ROS_WARN_STREAM("Lock-step: still waiting for the command of cycle " << state_.cycle << " from " << unanswered()
+                                                                           << ".");
       warn_at = SteadyClock::now() + seconds(kWarningPeriod);
     }
   }
@@ -145,8 +146,9 @@ void Simulator::awaitTick() {
   if (SteadyClock::now() > next_tick_) {
     ++overruns_;
     next_tick_ = SteadyClock::now();
-    ROS_WARN_THROTTLE(kWarningPeriod, "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.",
-                      overruns_, published_, 1e3 * scenario_.clock.cycleTime());
+    ROS_WARN_THROTTLE(kWarningPeriod,
+                      "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.", overruns_,
+                      published_, 1e3 * scenario_.clock.cycleTime());
   }
   ros::getGlobalCallbackQueue()->callAvailable();
   for (SteadyClock::time_point now = SteadyClock::now(); ros::ok() && now < next_tick_; now = SteadyClock::now()) {
@@ -168,8 +170,7 @@ void Simulator::awaitPermission() {
 void Simulator::applyInputs() {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const int agent = static_cast<int>(i);
-    simulation_.setCommand(
-        agent, links_[i].twist(simulation_.pose(agent), scenario_.clock.cycleTime()));
+    simulation_.setCommand(agent, links_[i].twist(simulation_.pose(agent), scenario_.clock.cycleTime()));
   }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <ros/ros.h>
+
 #include <chrono>
 #include <string>
 #include <vector>
-
-#include <ros/ros.h>
 
 #include "agent_link.h"
 #include "deformable_manipulation/ObjectState.h"

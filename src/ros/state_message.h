@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
+
+#include <string>
 
 #include "deformable_manipulation/ObjectState.h"
 #include "deformable_manipulation/pbd/simulation.h"

@@ -7,9 +7,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kSpacing = 0.01;          // m between the points of a trail
-constexpr std::size_t kLongest = 2000;     // points; older ones go
-constexpr double kWidth = 0.008;           // m
+constexpr double kSpacing = 0.01;       // m between the points of a trail
+constexpr std::size_t kLongest = 2000;  // points; older ones go
+constexpr double kWidth = 0.008;        // m
 
 Marker emptyTrail(int agent) {
   Marker trail;

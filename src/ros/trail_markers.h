@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <visualization_msgs/MarkerArray.h>
+
+#include <vector>
 
 #include "deformable_manipulation/ObjectState.h"
 

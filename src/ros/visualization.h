@@ -1,9 +1,9 @@
 #pragma once
 
+#include <ros/ros.h>
+
 #include <chrono>
 #include <string>
-
-#include <ros/ros.h>
 
 #include "deformable_manipulation/ObjectState.h"
 #include "object_markers.h"

@@ -32,8 +32,8 @@ TEST(RodParameters, areRefusedAllAtOnce) {
     Rod rod(p);
     FAIL() << "no exception";
   } catch (const ParameterError& error) {
-    EXPECT_EQ(keysOf(error), (std::vector<std::string>{"length", "radius", "density", "segments", "young_modulus",
-                                                       "damping"}));
+    EXPECT_EQ(keysOf(error),
+              (std::vector<std::string>{"length", "radius", "density", "segments", "young_modulus", "damping"}));
     EXPECT_EQ(error.problems()[0].value, "-1");
     EXPECT_NE(error.problems()[0].allowed.find("> 0 [m]"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("length: -1 - must be"), std::string::npos);
@@ -104,8 +104,8 @@ TEST(Simulation, letsAgentsReleaseAndGrip) {
   for (int i = 0; i < 100; ++i) {
     simulation.advance();
   }
-  EXPECT_NEAR(simulation.pose(1).position.z(), -0.1, 1e-12);      // the agent moves on
-  EXPECT_LT(positions(simulation.body())[27].z(), -0.5);          // the rope falls
+  EXPECT_NEAR(simulation.pose(1).position.z(), -0.1, 1e-12);              // the agent moves on
+  EXPECT_LT(positions(simulation.body())[27].z(), -0.5);                  // the rope falls
   EXPECT_THROW(simulation.hold(1, 27, Hold::CLAMPED), std::logic_error);  // out of its reach
 
   simulation.setCommand(1, Twist());

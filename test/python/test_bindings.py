@@ -1,6 +1,7 @@
 """The compiled simulation as Python sees it; its physics is tested in C++."""
 
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -78,8 +79,10 @@ def test_arrays_of_a_simulation(simulation):
 
 
 def test_segments_are_between_their_ends(rope):
+    rope.settle()
     ends = rope.points()[0]
-    np.testing.assert_allclose(rope.positions(), 0.5 * (ends[1:] + ends[:-1]), atol=1e-12)
+    # Two segments meet within what a step leaves open, and the point lies between them.
+    np.testing.assert_allclose(rope.positions(), 0.5 * (ends[1:] + ends[:-1]), atol=1e-5)
 
 
 def test_arrays_are_the_caller_s_own(rope):
@@ -147,14 +150,25 @@ def test_a_wrong_choice_names_the_right_ones(choice, allowed):
     assert key == list(choice)[0]
 
 
-def test_material_is_changed_or_all_of_it_kept(rope):
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"young_modulus": 3.0e10, "colour": 1.0},
+        {"young_modulus": 3.0e10, "torsion_modulus": 0.0, "damping": -1.0},
+    ],
+)
+def test_wrong_material_changes_nothing(rope, wrong):
     reference = rope.clone()
     with pytest.raises(_pbd.ParameterError) as error:
-        rope.set_material({"young_modulus": 3.0e10, "colour": 1.0, "damping": -1.0})
-    assert {key for key, _, _ in error.value.problems} == {"colour", "damping"}
+        rope.set_material(wrong)
+    assert {key for key, _, _ in error.value.problems} == set(wrong) - {"young_modulus"}
     rope.step(0.01, 2)
     reference.step(0.01, 2)
     np.testing.assert_array_equal(rope.points(), reference.points())
+
+
+def test_material_is_changed_while_running(rope):
+    reference = rope.clone()
     rope.set_material({"young_modulus": 3.0e10})
     rope.step(0.01, 2)
     reference.step(0.01, 2)
@@ -318,21 +332,21 @@ def test_a_simulation_takes_only_what_makes_sense():
 
 
 def test_other_threads_run_while_it_advances():
-    """The interpreter's lock is free during a long step: another thread gets on meanwhile."""
     rope = _pbd.Rod(**{**ROPE, "segments": 400})
     rope.hold(0)
-    begun, ended = threading.Event(), threading.Event()
+    span = []
 
     def advance():
-        begun.set()
-        rope.step(1.0, 20_000)
-        ended.set()
+        span.append(time.monotonic())
+        rope.step(1.0, 1000)
+        span.append(time.monotonic())
 
     thread = threading.Thread(target=advance)
     thread.start()
-    begun.wait()
-    turns = 0
-    while not ended.is_set():
-        turns += 1
+    ticks = []
+    while len(span) < 2:
+        ticks.append(time.monotonic())
     thread.join()
-    assert turns > 1000
+    # Around its start and end another thread may run anyway, but not in the midst of it.
+    begin, end = np.interp([0.25, 0.75], [0.0, 1.0], span)
+    assert any(begin < tick < end for tick in ticks)

@@ -31,7 +31,7 @@ struct PerturbedCopy {
 
 //! When a body counts as settled.
 struct SettleOptions {
-  double time_step = 0.01;        //!< [s]
+  double time_step = 0.01;  //!< [s]
   int substeps = 10;
   double speed_tolerance = 1e-4;  //!< [m/s] of the fastest particle of all copies
   double time_limit = 60.0;       //!< [s] simulated

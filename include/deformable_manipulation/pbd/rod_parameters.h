@@ -7,8 +7,8 @@ namespace pbd {
 
 //! How the axial stiffness of a rod is chosen.
 enum class Stretch {
-  ZERO,         //!< the segments stay end to end, to numerical precision
-  FROM_MODULI   //!< axial stiffness E A
+  ZERO,        //!< the segments stay end to end, to numerical precision
+  FROM_MODULI  //!< axial stiffness E A
 };
 
 //! How the joints of a rod are solved in a substep.
@@ -26,21 +26,21 @@ struct RodParameters {
   double young_modulus = 1e7;    //!< [Pa] bending
   double torsion_modulus = 4e6;  //!< [Pa] twist
   Stretch stretch = Stretch::ZERO;
-  double damping = 10.0;         //!< [1/s] decay rate of motion relative to the held points
+  double damping = 10.0;  //!< [1/s] decay rate of motion relative to the held points
   RodSolver solver = RodSolver::DIRECT;
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  //!< [m/s^2]
-  Pose pose;                     //!< undeformed rod: first end at the position, along the pose's x axis
+  Pose pose;                                   //!< undeformed rod: first end at the position, along the pose's x axis
 
   //! @throw ParameterError with every parameter that is out of range.
   void check() const;
 
-  double segmentLength() const { return length / segments; }       //!< [m]
-  double segmentMass() const;                                      //!< [kg]
-  double transverseInertia() const;                                //!< [kg m^2] of a segment, across its axis
-  double axialInertia() const;                                     //!< [kg m^2] of a segment, about its axis
-  double bendingStiffness() const;                                 //!< E I [N m^2]
-  double torsionStiffness() const;                                 //!< G J [N m^2]
-  double axialStiffness() const;                                   //!< E A [N]
+  double segmentLength() const { return length / segments; }  //!< [m]
+  double segmentMass() const;                                 //!< [kg]
+  double transverseInertia() const;                           //!< [kg m^2] of a segment, across its axis
+  double axialInertia() const;                                //!< [kg m^2] of a segment, about its axis
+  double bendingStiffness() const;                            //!< E I [N m^2]
+  double torsionStiffness() const;                            //!< G J [N m^2]
+  double axialStiffness() const;                              //!< E A [N]
 };
 
 }  // namespace pbd

@@ -115,7 +115,7 @@ class Simulation {
     int particle;  // held, or -1
     Pose pose;
     Twist command;
-    Twist twist;  // that led to the present state
+    Twist twist;                         // that led to the present state
     std::vector<Vector3> displacements;  // of its copies [m]
   };
 

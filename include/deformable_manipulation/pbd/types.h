@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 
 namespace deformable_manipulation {
 namespace pbd {

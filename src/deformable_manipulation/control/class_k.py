@@ -4,7 +4,7 @@ import numpy as np
 
 
 class PiecewiseLinearClassK:
-    """Extended class K-infinity function of two slopes (paper, section V).
+    """Extended class K-infinity function of two slopes (paper, section VI).
 
     ``alpha(h) = slopes[0] * h`` for h >= 0 and ``slopes[1] * h`` for h < 0. The first slope says
     how fast h may shrink while safe, the second how fast a violation has to be mended.

@@ -11,7 +11,7 @@ _NEGLIGIBLE = 1e-6
 
 
 class CollisionBarrier:
-    """h_m = distance_m - offset for each near feature m (paper, eq. 3 to 5).
+    """h_m = distance_m - offset for each near feature m (paper, eq. 3 to 7).
 
     With the gradients g_a of agent a, the normal n, the obstacle's velocity w and
     sum over all agents g_a = n (see :class:`~.differences.Differences`),

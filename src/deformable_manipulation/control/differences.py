@@ -107,7 +107,7 @@ class Differences:
         return self._with_leader(distances, chosen, gradients)
 
     def minimum(self, distances):
-        """The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 5)."""
+        """The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6)."""
         start = int(distances.offsets[0])
         chosen = slice(start, min(start + 1, int(distances.offsets[1])))
         gradients = np.repeat(self._rates[None, :, :, -1], chosen.stop - chosen.start, axis=0)

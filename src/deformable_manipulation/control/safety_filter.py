@@ -34,7 +34,7 @@ class Filtered:
 
 
 class SafetyFilter:
-    """min 1/2 |diag(weights) (u - nominal)|^2 subject to rows and bounds (paper, eq. 11).
+    """min 1/2 |diag(weights) (u - nominal)|^2 subject to rows and bounds (paper, eq. 13).
 
     The bounds always hold. If the rows cannot all hold, they are relaxed with one slack per tier:
 

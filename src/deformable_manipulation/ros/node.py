@@ -54,17 +54,13 @@ def _require_numpy():
 
 def subscribe(topic, message_class, callback):
     """Subscribe to the newest message of a topic without delay."""
-
-    def call(message):
-        try:
-            callback(message)
-        except rospy.ROSException:
-            # Messages come until the very end, when the publishers are closed already.
-            if not rospy.core.is_shutdown_requested():
-                raise
-
     return rospy.Subscriber(
-        topic, message_class, call, queue_size=1, buff_size=BUFFER_SIZE, tcp_nodelay=True
+        topic,
+        message_class,
+        _until_shutdown(callback),
+        queue_size=1,
+        buff_size=BUFFER_SIZE,
+        tcp_nodelay=True,
     )
 
 
@@ -85,9 +81,23 @@ def every(period, callback):
     """Call back every period [s] of real time, whatever the ROS clock does, until shutdown."""
     stopped = threading.Event()
     rospy.on_shutdown(stopped.set)
+    call = _until_shutdown(callback)
 
     def loop():
         while not stopped.wait(period):
-            callback()
+            call()
 
     threading.Thread(target=loop, daemon=True).start()
+
+
+def _until_shutdown(callback):
+    """The callback, which may find at the very end that the publishers are closed already."""
+
+    def call(*arguments):
+        try:
+            callback(*arguments)
+        except rospy.ROSException:
+            if not rospy.core.is_shutdown_requested():
+                raise
+
+    return call

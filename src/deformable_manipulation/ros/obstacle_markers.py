@@ -1,10 +1,9 @@
 """Obstacles and nearest features for RViz."""
 
 import numpy as np
-import rospy
 import shapely
 from geometry_msgs.msg import Point
-from std_msgs.msg import ColorRGBA
+from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from deformable_manipulation.distance.planes import PlaneFrame
@@ -19,7 +18,7 @@ def obstacle_markers(obstacles, frame, half_width=0.25):
     """The piece of each planar obstacle within ``half_width`` [m] of its plane."""
     markers = []
     for index, obstacle in enumerate(obstacles):
-        marker = _marker(frame, rospy.Time(0), "obstacles", index, Marker.TRIANGLE_LIST, _GROUND)
+        marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST, _GROUND)
         marker.scale.x = marker.scale.y = marker.scale.z = 1.0
         marker.points = [Point(*corner) for corner in _prism(obstacle, half_width)]
         markers.append(marker)
@@ -51,10 +50,10 @@ def _triangles(polygon):
     return np.concatenate([shapely.get_coordinates(each)[:3] for each in counterclockwise])
 
 
-def distance_markers(distances, frame, stamp):
+def distance_markers(distances, header):
     """A line and its length for the minimum distance of the object, lines for its copies."""
     markers = []
-    lines = _marker(frame, stamp, "distances", 0, Marker.LINE_LIST, _LINE)
+    lines = _marker(header, "distances", 0, Marker.LINE_LIST, _LINE)
     lines.scale.x = _LINE_WIDTH
     for copy, first in enumerate(distances.offsets[:-1]):
         if first == distances.offsets[copy + 1]:
@@ -62,7 +61,7 @@ def distance_markers(distances, frame, stamp):
         ends = Point(*distances.object_point[first]), Point(*distances.obstacle_point[first])
         lines.points.extend(ends)
         if copy == 0:
-            text = _marker(frame, stamp, "distances", 1, Marker.TEXT_VIEW_FACING, _LINE)
+            text = _marker(header, "distances", 1, Marker.TEXT_VIEW_FACING, _LINE)
             text.scale.z = _TEXT_HEIGHT
             text.text = f"{distances.minimum[0]:.3f} m"
             middle = 0.5 * (distances.object_point[first] + distances.obstacle_point[first])
@@ -73,9 +72,5 @@ def distance_markers(distances, frame, stamp):
     return MarkerArray(markers)
 
 
-def _marker(frame, stamp, namespace, number, kind, color):
-    marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD, color=color)
-    marker.header.frame_id = frame
-    marker.header.stamp = stamp
-    marker.pose.orientation.w = 1.0
+X    marker.pose.orientation.w = 1.0
     return marker

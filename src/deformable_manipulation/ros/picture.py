@@ -40,22 +40,23 @@ class PictureAtRest:
         self._same = 0
         self.picture = None
 
-    def __call__(self):
-        """Look again if it is time to; the picture once it is at rest, until then None."""
+    def again(self):
+        """Look again if it is time to; whether the picture shows something and is at rest."""
         now = self._clock()
         if now - self._last_look < _PERIOD:
-            return None
+            return False
         self._last_look = now
         picture = self._look()
         same = self.picture is not None and np.array_equal(picture, self.picture)
         self._same = self._same + 1 if same else 1
         self.picture = picture
-        return picture if self._same >= _SAME_LOOKS and shows_scene(picture) else None
+        return self._same >= _SAME_LOOKS and shows_scene(picture)
 
-    @property
-    def is_blank(self):
-        """Whether nothing was to be seen at the last look."""
-        return self.picture is None or not shows_scene(self.picture)
+    def complaint(self):
+        """What is amiss with the last picture."""
+        if self.picture is None or not shows_scene(self.picture):
+            return "nothing was rendered: the 3D view is blank"
+        return "the picture did not come to rest"
 
 
 def save_png(picture, path, description):

@@ -42,7 +42,7 @@ def private_master(directory):
             program = Program("roscore", command, Path(directory) / "roscore.log")
             stack.enter_context(program)
             try:
-                program.wait_until(_is_ready, _TIMEOUT, "The ROS master did not answer")
+                program.wait_until(_is_ready, _TIMEOUT, "the ROS master did not answer yet")
                 break
             except ProgramError:
                 if attempt == _ATTEMPTS - 1:

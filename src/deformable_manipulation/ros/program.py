@@ -65,7 +65,8 @@ class Program:
         """Wait until ``condition()`` is true; its value.
 
         Raises:
-            ProgramError: the program ended, or ``timeout`` [s] went by; then says ``complaint``.
+            ProgramError: the program ended, or ``timeout`` [s] went by; then it says
+                ``complaint``, a text or a function that gives one.
         """
         deadline = time.monotonic() + timeout
         while True:
@@ -74,7 +75,8 @@ class Program:
                 return value
             self.check()
             if time.monotonic() > deadline:
-                raise self.error(f"{complaint} within {timeout:g} s")
+                text = complaint() if callable(complaint) else complaint
+                raise self.error(f"after {timeout:g} s {text}")
             time.sleep(_POLLING_PERIOD)
 
     def stop(self):

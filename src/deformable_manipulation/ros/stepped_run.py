@@ -58,7 +58,7 @@ class SteppedRun:
         self._program = program
         self._cycle = -1
         self._stamp = None
-        program.wait_until(self._pause, _TIMEOUT, "The run's simulator did not answer")
+        program.wait_until(self._pause, _TIMEOUT, "the run's simulator did not answer yet")
         self._subscriber = rospy.Subscriber(
             "state",
             numpy_msg(ObjectState),
@@ -108,7 +108,7 @@ class SteppedRun:
         self._program.wait_until(
             lambda: self._cycle >= cycle,
             _TIMEOUT,
-            f"The run did not go on after {max(self._cycle, 0) * self._scenario.cycle_time:.2f} s",
+            f"the run did not go on from {max(self._cycle, 0) * self._scenario.cycle_time:.2f} s",
         )
 
 

@@ -46,7 +46,7 @@ def virtual_display(size, directory):
     log = Path(directory) / "xvfb.log"
     with open(reading, "rb") as answer, open(writing, "wb"):
         with Program("Xvfb", command, log, pass_fds=(writing,)) as server:
-            number = server.wait_until(answer.read, _TIMEOUT, "Xvfb was not ready")
+            number = server.wait_until(answer.read, _TIMEOUT, "Xvfb was not ready yet")
             name = ":" + number.decode().strip()
             yield VirtualDisplay(name, Path(directory) / "Xvfb_screen0")
 

@@ -1,4 +1,4 @@
-"""Limits of the distance between two agents (paper, eqs. 6 and 9)."""
+"""Limits of the distance between two agents (paper, eqs. 8 and 11)."""
 
 from dataclasses import dataclass
 

@@ -103,7 +103,7 @@ class CollisionSpec:
 
 @dataclass(frozen=True)
 class OverstretchSpec:
-    """Barrier that keeps two agents from overstretching the object (paper, eq. 6)."""
+    """Barrier that keeps two agents from overstretching the object (paper, eq. 8)."""
 
     max_distance: Optional[float] = None  # m between held points; None: 99 % of the free length
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
@@ -111,7 +111,7 @@ class OverstretchSpec:
 
 @dataclass(frozen=True)
 class ProximitySpec:
-    """Barrier that keeps two agents apart (paper, eq. 9)."""
+    """Barrier that keeps two agents apart (paper, eq. 11)."""
 
     min_distance: Optional[float] = None  # m between held points; None: 10 % of the free length
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s

@@ -1,0 +1,181 @@
+"""Saves pictures of a scenario as RViz shows it, without a screen."""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+from typing import Optional, Sequence, Tuple
+
+from deformable_manipulation.commands.check_scenario import override
+from deformable_manipulation.commands.interruption import exit_status, terminate_as_interrupt
+from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.scenario import (
+    ScenarioError,
+    load_scenario,
+    package_share_directory,
+)
+from deformable_manipulation.scenario.spec import Scenario
+
+NAME = "rviz_snapshot"
+DEFAULT_CONFIGURATION = "rope_one_assistant"
+LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
+DESCRIPTION = """Save pictures of a scenario as RViz shows it. Runs the scenario in lock-step on a
+ROS master of its own, stops it at each time, and takes a picture of RViz on a virtual display.
+Nothing that runs already is disturbed, and no screen is needed."""
+EXAMPLES = """examples:
+  rviz_snapshot rope_one_assistant --times 30,60,130
+  rviz_snapshot my_scenario.yaml --output figures --size 1920x1080 --view YZ
+  rviz_snapshot rope_one_assistant --set controller.collision.offset=0.1
+
+The pictures are named SCENARIO_tTIME.png; their paths are printed.
+exit status: 0 every picture is saved, 1 one is not (the reason is on stderr), 2 wrong usage
+"""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit status."""
+    arguments = _parse(argv)
+    try:
+        scenario = load_scenario(arguments.scenario, arguments.set)
+    except ScenarioError as error:
+        print(error, file=sys.stderr)
+        return 1
+    times = sorted(set(arguments.times or [0.5 * scenario.simulation.duration]))
+    if times[-1] > scenario.simulation.duration:
+        return _fail(
+            f"--times: {times[-1]:g} s is after the end of the scenario; "
+            f"allowed: 0 to {scenario.simulation.duration:g} s"
+        )
+    # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
+    from deformable_manipulation.ros.program import ProgramError
+
+    with terminate_as_interrupt():
+        try:
+            _take_all(scenario, times, arguments)
+        except ProgramError as error:
+            return _fail(str(error))
+        except OSError as error:
+            return _fail(f"cannot write the pictures: {error}")
+        except KeyboardInterrupt as interrupt:
+            return exit_status(interrupt)
+    return 0
+
+
+def _fail(message: str) -> int:
+    print(f"{NAME}: {message}", file=sys.stderr)
+    return 1
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog=NAME,
+        description=DESCRIPTION,
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("scenario", help="YAML file, or the name of a scenario of this package")
+    parser.add_argument(
+        "--times",
+        type=times_of,
+        metavar="SECONDS",
+        help="when to take pictures, separated by commas (default: half of the duration)",
+    )
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, default=Path("."), help="folder (default: this one)"
+    )
+    parser.add_argument(
+        "--size",
+        type=size_of,
+        default=(1280, 800),
+        metavar="WIDTHxHEIGHT",
+        help="of the pictures, in pixels (default: 1280x800)",
+    )
+    parser.add_argument("--view", metavar="NAME", help="a saved view of the RViz configuration")
+    parser.add_argument(
+        "--config",
+        metavar="FILE",
+        type=Path,
+        help="RViz configuration (default: that of the scenario, "
+        f"or of {DEFAULT_CONFIGURATION} where it has none)",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY.PATH=VALUE",
+        type=override,
+        action="append",
+        default=[],
+        help="replace a value of the scenario; can be given several times",
+    )
+    parser.add_argument(
+        "--timeout",
+        type=float,
+        default=60.0,
+        metavar="SECONDS",
+        help="how long to wait for each picture (default: 60)",
+    )
+    return parser.parse_args(argv)
+
+
+def times_of(text: str) -> Sequence[float]:
+    """Times [s] separated by commas; raises argparse.ArgumentTypeError where they are not."""
+    try:
+        times = [float(item) for item in text.split(",")]
+    except ValueError:
+        times = [-1.0]
+    if not all(0.0 <= time < float("inf") for time in times):
+        raise argparse.ArgumentTypeError(
+            f"'{text}' are no times: numbers from 0 on, separated by commas, as in 30,60,130"
+        )
+    return times
+
+
+def size_of(text: str) -> Tuple[int, int]:
+    """Width and height in pixels; raises argparse.ArgumentTypeError where it is something else."""
+    numbers = text.lower().split("x")
+    if len(numbers) != 2 or not all(
+        number.isdecimal() and LEAST_SIZE <= int(number) <= LARGEST_SIZE for number in numbers
+    ):
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is no size: two numbers of {LEAST_SIZE} to {LARGEST_SIZE}, as in 1280x800"
+        )
+    return int(numbers[0]), int(numbers[1])
+
+
+def picture_name(scenario: str, time: float) -> str:
+    """The file name of a picture, such as ``rope_t060.png`` or ``rope_t007.25.png``."""
+    whole, _, fraction = f"{time:.3f}".partition(".")
+    fraction = fraction.rstrip("0")
+    return "{}_t{:0>3}{}.png".format(scenario, whole, "." + fraction if fraction else "")
+
+
+def configuration_path(scenario: str) -> Path:
+    """The scenario's RViz configuration, or that of the first scenario where it has none."""
+    folder = package_share_directory() / "rviz"
+    path = folder / f"{scenario}.rviz"
+    return path if path.is_file() else folder / f"{DEFAULT_CONFIGURATION}.rviz"
+
+
+def _take_all(scenario: Scenario, times: Sequence[float], arguments: argparse.Namespace) -> None:
+    from deformable_manipulation.ros.picture import save_png
+    from deformable_manipulation.ros.rviz_view import read_configuration
+    from deformable_manipulation.ros.snapshot_studio import snapshot_studio
+
+    source = arguments.config or configuration_path(scenario.name)
+    configuration = read_configuration(source, arguments.view, arguments.size)
+    progress = ProgressDisplay(sys.stderr)
+    with tempfile.TemporaryDirectory(prefix=NAME + "_") as directory:
+        with snapshot_studio(scenario, configuration, arguments.size, directory) as studio:
+            for time in times:
+                print(f"{NAME}: running to {time:g} s", file=sys.stderr)
+                try:
+                    studio.go_to(time, progress)
+                finally:
+                    progress.close()
+                print(f"{NAME}: taking the picture", file=sys.stderr)
+                path = arguments.output / picture_name(scenario.name, time)
+                save_png(studio.take(arguments.timeout), path, f"{scenario.name} at {time:g} s")
+                print(path, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

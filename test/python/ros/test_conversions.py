@@ -1,0 +1,185 @@
+"""Messages, as a node receives them, and the core's arrays."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import TwistStamped
+from messages import distances_message, state_message, transmitted
+
+from deformable_manipulation.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.control.observation import find_fault
+from deformable_manipulation.msg import ControllerState
+from deformable_manipulation.ros import conversions
+from deformable_manipulation.ros.conversions import MessageError
+from deformable_manipulation.scenario import load_scenario
+from deformable_manipulation.simulation import make_simulation
+
+TWO_ASSISTANTS = Path(__file__).resolve().parents[2] / "rostest" / "two_assistants.yaml"
+FILE_ORDER = ["leader", "middle_assistant", "end_assistant"]
+MESSAGE_ORDER = ["end_assistant", "leader", "middle_assistant"]  # alphabetic, as the simulator's
+ROWS = [FILE_ORDER.index(name) for name in MESSAGE_ORDER]
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    scenario = load_scenario(TWO_ASSISTANTS)
+    assert [agent.name for agent in scenario.agents] == FILE_ORDER
+    return scenario
+
+
+@pytest.fixture(scope="module")
+def simulation(scenario):
+    """One whose last copy is not ready yet."""
+    simulation = make_simulation(scenario)
+    simulation.add_perturbation(0, (0.02, 0.0, 0.0))
+    return simulation
+
+
+@pytest.fixture(scope="module")
+def computed(scenario, simulation):
+    return make_minimum_distance(scenario).compute(simulation.points())
+
+
+@pytest.fixture
+def state(simulation):
+    """The simulation's state with its agents in the message's order, not yet sent."""
+    displaced = [MESSAGE_ORDER.index(FILE_ORDER[i]) if i >= 0 else -1
+                 for i in simulation.displaced_agents()]
+    points = simulation.points()
+    return state_message(
+        stamp=12.5,
+        cycle=150,
+        reset_count=2,
+        point_count=points.shape[1],
+        agents=MESSAGE_ORDER,
+        agent_positions=simulation.positions()[ROWS].ravel(),
+        displaced_agents=displaced,
+        displacements=simulation.displacements().ravel(),
+        copy_ready=simulation.ready().tolist(),
+        points=points.ravel(),
+    )
+
+
+@pytest.fixture
+def distances(state, computed):
+    return conversions.fill_distances(distances_message(), state, computed, 1e-3)
+
+
+def test_an_observation_is_the_simulation_s_state(state, distances, simulation, scenario):
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    assert find_fault(seen, len(FILE_ORDER)) == ""
+    assert (seen.cycle, seen.time) == (150, pytest.approx(1.5))
+    for name in ("positions", "points", "displaced_agents", "displacements", "ready"):
+        expected = getattr(simulation, name)()
+        np.testing.assert_array_equal(getattr(seen, name), expected, err_msg=name)
+        assert getattr(seen, name).shape == expected.shape
+    assert not seen.ready[-1] and seen.ready[:-1].all()
+
+
+def test_distances_arrive_as_they_were_computed(distances, computed):
+    received = conversions.to_distances(transmitted(distances))
+    for name in vars(computed):
+        if name != "names":
+            expected = getattr(computed, name)
+            np.testing.assert_array_equal(getattr(received, name), expected, err_msg=name)
+            assert getattr(received, name).shape == expected.shape, name
+    assert received.names == computed.names == ("ground",)
+
+
+def test_no_obstacle_gives_no_feature_and_an_infinite_distance(state, scenario, computed):
+    copies = len(state.displaced_agents)
+    nothing = type(computed)(
+        minimum=np.full(copies, np.inf),
+        offsets=np.zeros(copies + 1, dtype=int),
+        distance=np.zeros(0),
+        obstacle=np.zeros(0, dtype=int),
+        object_point=np.zeros((0, 3)),
+        obstacle_point=np.zeros((0, 3)),
+        normal=np.zeros((0, 3)),
+        vertices=np.zeros((0, 3), dtype=int),
+        weights=np.zeros((0, 3)),
+        obstacle_velocity=np.zeros((0, 3)),
+    )
+    message = conversions.fill_distances(distances_message(), state, nothing, 0.0)
+    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    assert find_fault(seen, len(FILE_ORDER)) == ""
+    assert np.isinf(seen.distances.minimum).all()
+
+
+def test_distances_carry_the_cycle_of_their_state(state, distances):
+    assert distances.header == state.header
+    assert (distances.cycle, distances.reset_count) == (state.cycle, state.reset_count)
+    assert distances.computation_time == 1e-3
+
+
+@pytest.mark.parametrize(
+    "field, change",
+    [
+        ("points", lambda state: state.points[:-1]),
+        ("agent_positions", lambda state: state.agent_positions[:-3]),
+        ("displacements", lambda state: []),
+        ("copy_ready", lambda state: state.copy_ready[:-1]),
+        ("agents", lambda state: ["leader", "middle_assistant", "somebody"]),
+        ("displaced_agents", lambda state: [3] + state.displaced_agents[1:]),
+        ("displaced_agents", lambda state: [-2] + state.displaced_agents[1:]),
+    ],
+)
+def test_a_state_that_does_not_fit_is_refused_by_name(state, distances, scenario, field, change):
+    setattr(state, field, change(state))
+    with pytest.raises(MessageError, match="^" + field):
+        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+
+
+def test_a_state_in_another_frame_is_refused(state, distances, scenario):
+    state.header.frame_id = "odom"
+    with pytest.raises(MessageError, match="frame_id: 'odom'.*'map'"):
+        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+
+
+@pytest.mark.parametrize(
+    "field",
+    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights",
+     "obstacle_velocities"],
+)
+def test_distances_that_do_not_fit_are_refused_by_name(distances, field):
+    setattr(distances, field, getattr(distances, field)[:-1])
+    with pytest.raises(MessageError, match="^" + field):
+        conversions.to_distances(transmitted(distances))
+
+
+def test_a_decision_as_a_message(state, scenario):
+    decision = ClosedLoop(scenario).step().decisions["end_assistant"]
+    message = conversions.fill_controller_state(
+        ControllerState(), state, "end_assistant", decision
+    )
+    received = transmitted(message)
+    assert received.header == state.header
+    assert (received.cycle, received.reset_count) == (150, 2)
+    assert (received.agent, received.enabled) == ("end_assistant", True)
+    assert (received.status, received.status_text) == (decision.status, decision.text)
+    for name, vector in (
+        ("position", decision.position),
+        ("target", decision.target),
+        ("error", decision.error),
+        ("nominal_velocity", decision.nominal),
+        ("velocity", decision.command),
+        ("jacobian", decision.jacobian),
+    ):
+        assert [getattr(received, f"{name}_{axis}") for axis in "xyz"] == vector.tolist(), name
+    for name in (
+        "error_norm", "distance", "h_collision", "h_overstretch", "h_proximity", "leader_drift",
+        "rows", "slack_collision", "slack_overstretch", "slack_proximity", "solve_time",
+        "computation_time",
+    ):
+        value = getattr(decision, name)
+        assert getattr(received, name) == value or math.isnan(value), name
+
+
+def test_a_command_answers_its_state(state):
+    twist = conversions.to_twist(TwistStamped(), state, np.array([0.1, -0.2, 0.3]))
+    assert twist.header == state.header
+    linear, angular = twist.twist.linear, twist.twist.angular
+    assert (linear.x, linear.y, linear.z) == (0.1, -0.2, 0.3)
+    assert (angular.x, angular.y, angular.z) == (0.0, 0.0, 0.0)
