@@ -270,20 +270,12 @@ class PackOfCopies {
   const Compliance compliance_;
 };
 
-void substepGaussSeidel(const RodSubstepInput& input, RodLanes& lanes) {
+template <bool direct>
+void substep(const RodSubstepInput& input, RodLanes& lanes) {
   for (int lane = 0; lane < kLanes; lane += kPackWidth) {
     PackOfCopies copies(input, lanes, lane);
     copies.predict();
-    copies.sweep();
-    copies.updateVelocities();
-  }
-}
-
-void substepDirect(const RodSubstepInput& input, RodLanes& lanes) {
-  for (int lane = 0; lane < kLanes; lane += kPackWidth) {
-    PackOfCopies copies(input, lanes, lane);
-    copies.predict();
-    copies.solveChain();
+    direct ? copies.solveChain() : copies.sweep();
     copies.updateVelocities();
   }
 }
@@ -293,7 +285,7 @@ void substepDirect(const RodSubstepInput& input, RodLanes& lanes) {
 
 }  // namespace
 
-RodKernel rodKernel() { return {DM_NAME_OF(DEFORMABLE_MANIPULATION_ISA), substepGaussSeidel, substepDirect}; }
+RodKernel rodKernel() { return {DM_NAME_OF(DEFORMABLE_MANIPULATION_ISA), substep<false>, substep<true>}; }
 
 }  // namespace DEFORMABLE_MANIPULATION_ISA
 }  // namespace pbd

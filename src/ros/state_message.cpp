@@ -10,6 +10,13 @@ void append(std::vector<double>& to, const Vector& vector) {
   to.insert(to.end(), vector.data(), vector.data() + vector.size());
 }
 
+template <typename Message>
+void assign(const pbd::Vector3& from, Message& to) {
+  to.x = from.x();
+  to.y = from.y();
+  to.z = from.z();
+}
+
 void fillAgents(const pbd::Simulation& simulation, ObjectState& message) {
   message.agents.clear();
   message.agent_particles.clear();
@@ -70,12 +77,8 @@ geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;
   message.header.frame_id = frame;
-  message.wrench.force.x = wrench.force.x();
-  message.wrench.force.y = wrench.force.y();
-  message.wrench.force.z = wrench.force.z();
-  message.wrench.torque.x = wrench.torque.x();
-  message.wrench.torque.y = wrench.torque.y();
-  message.wrench.torque.z = wrench.torque.z();
+  assign(wrench.force, message.wrench.force);
+  assign(wrench.torque, message.wrench.torque);
   return message;
 }
 
@@ -83,12 +86,8 @@ geometry_msgs::PoseStamped toPose(const pbd::Pose& pose, const ros::Time& stamp,
   geometry_msgs::PoseStamped message;
   message.header.stamp = stamp;
   message.header.frame_id = frame;
-  message.pose.position.x = pose.position.x();
-  message.pose.position.y = pose.position.y();
-  message.pose.position.z = pose.position.z();
-  message.pose.orientation.x = pose.orientation.x();
-  message.pose.orientation.y = pose.orientation.y();
-  message.pose.orientation.z = pose.orientation.z();
+  assign(pose.position, message.pose.position);
+  assign(pose.orientation.vec(), message.pose.orientation);
   message.pose.orientation.w = pose.orientation.w();
   return message;
 }
