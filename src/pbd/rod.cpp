@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "deformable_manipulation/pbd/errors.h"
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
@@ -79,7 +78,9 @@ struct Rod::State {
 };
 
 Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new State) {
-  parameters_.check();
+  ParameterCheck check;
+  parameters_.check(check);
+  check.throwIfAny();
   const int n = parameters_.segments;
   State& s = *state_;
   s.groups.emplace_back(n);
@@ -101,7 +102,7 @@ std::unique_ptr<Body> Rod::clone() const { return std::unique_ptr<Body>(new Rod(
 
 void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
   RodParameters changed = parameters_;
-  ParameterCheck known;
+  ParameterCheck check;
   for (const MaterialParameter& parameter : parameters) {
     if (parameter.key == "young_modulus") {
       changed.young_modulus = parameter.value;
@@ -110,11 +111,11 @@ void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
     } else if (parameter.key == "damping") {
       changed.damping = parameter.value;
     } else {
-      known.require(false, parameter.key, parameter.value, "young_modulus, torsion_modulus or damping");
+      check.require(false, parameter.key, parameter.value, "young_modulus, torsion_modulus or damping");
     }
   }
-  known.throwIfAny();
-  changed.check();
+  changed.check(check);
+  check.throwIfAny();
   parameters_ = changed;
 }
 

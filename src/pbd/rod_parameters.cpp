@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "deformable_manipulation/pbd/errors.h"
-
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
@@ -12,8 +10,7 @@ double area(double radius) { return M_PI * radius * radius; }
 
 }  // namespace
 
-void RodParameters::check() const {
-  ParameterCheck check;
+void RodParameters::check(ParameterCheck& check) const {
   check.positive("length", length, "[m]");
   check.positive("radius", radius, "[m]");
   check.positive("density", density, "[kg/m^3]");
@@ -25,7 +22,6 @@ void RodParameters::check() const {
   check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");
   check.require(std::abs(pose.orientation.norm() - 1.0) < 1e-6, "pose.orientation", pose.orientation.norm(),
                 "a quaternion of norm 1");
-  check.throwIfAny();
 }
 
 double RodParameters::segmentMass() const { return density * area(radius) * segmentLength(); }

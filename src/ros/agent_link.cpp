@@ -1,5 +1,7 @@
 #include "agent_link.h"
 
+#include <sstream>
+
 #include "state_message.h"
 
 namespace deformable_manipulation {
@@ -10,6 +12,20 @@ constexpr int kQueue = 10;
 
 // A simulation that is started, or gets poses again after a gap, first has to catch up.
 constexpr double kCaughtUp = 0.05;  // m
+
+std::string seconds(double value) {
+  std::ostringstream text;
+  text << value << " s";
+  return text.str();
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : " and ") + name;
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -58,17 +74,18 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
     return true;
   }
   if (!poses_.fresh(ros::Time::now())) {
-    warn("is lost: no pose on " + subscriber_.getTopic() + " newer than " + std::to_string(timeout_) +
-         " s; no states until it comes");
+    warn(Trouble::POSE_LOST, "is lost: no pose on " + subscriber_.getTopic() + " newer than " + seconds(timeout_) +
+                                 "; no states until it comes");
     return false;
   }
   return poses_.distanceFrom(present.position) < kCaughtUp;
 }
 
 pbd::Twist AgentLink::commanded() const {
-  if (subscriber_.getNumPublishers() > 1) {
-    warn("stands still: " + std::to_string(subscriber_.getNumPublishers()) + " publishers send commands on " +
-         subscriber_.getTopic() + "; leave one of them");
+  const std::vector<std::string> senders = presentSenders();
+  if (senders.size() > 1) {
+    warn(Trouble::SEVERAL_SENDERS, "stands still: " + std::to_string(senders.size()) + " nodes send commands on " +
+                                       subscriber_.getTopic() + ", " + joined(senders) + "; leave one of them");
     return pbd::Twist();
   }
   if (lockstep_) {
@@ -76,32 +93,47 @@ pbd::Twist AgentLink::commanded() const {
   }
   const ros::Time now = ros::Time::now();
   if (commands_.timedOut(now, timeout_)) {
-    warn("stands still: no command on " + subscriber_.getTopic() + " for more than " + std::to_string(timeout_) + " s");
+    warn(Trouble::COMMAND_LOST,
+         "stands still: no command on " + subscriber_.getTopic() + " for more than " + seconds(timeout_));
   }
   return commands_.command(now, timeout_);
 }
 
 void AgentLink::reset() { commands_.reset(); }
 
-void AgentLink::receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command) {
+//! Who sends commands at present. The number of connections does not tell: that to a node that was
+//! killed is kept.
+std::vector<std::string> AgentLink::presentSenders() const {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  std::vector<std::string> names;
+  for (const auto& sender : senders_) {
+    if ((now - sender.second).toSec() <= timeout_) {
+      names.push_back(sender.first);
+    }
+  }
+  return names;
+}
+
+void AgentLink::receiveCommand(const ros::MessageEvent<geometry_msgs::TwistStamped const>& event) {
+  senders_[event.getPublisherName()] = ros::SteadyTime::now();
   const ros::Time latest = lockstep_ ? newest_state_ : ros::Time::now() + ros::Duration(timeout_);
-  const std::string fault = commands_.receive(*command, latest);
+  const std::string fault = commands_.receive(*event.getConstMessage(), latest);
   if (!fault.empty()) {
-    warn("gets a command that is dropped: " + fault);
+    warn(Trouble::COMMAND_DROPPED, "gets a command that is dropped: " + fault);
   }
 }
 
 void AgentLink::receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
   const std::string fault = poses_.receive(*pose);
   if (!fault.empty()) {
-    warn("gets a pose that is dropped: " + fault);
+    warn(Trouble::POSE_DROPPED, "gets a pose that is dropped: " + fault);
   }
 }
 
-void AgentLink::warn(const std::string& text) const {
+void AgentLink::warn(Trouble trouble, const std::string& text) const {
   const ros::WallTime now = ros::WallTime::now();
-  if (now > quiet_until_) {
-    quiet_until_ = now + ros::WallDuration(kWarningPeriod);
+  if (now > quiet_until_[trouble]) {
+    quiet_until_[trouble] = now + ros::WallDuration(kWarningPeriod);
     ROS_WARN_STREAM("Agent " << name_ << " " << text << ".");
   }
 }

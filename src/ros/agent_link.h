@@ -4,7 +4,9 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/ros.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "command_inbox.h"
 #include "deformable_manipulation/pbd/types.h"
@@ -46,10 +48,13 @@ class AgentLink {
   const std::string& name() const { return name_; }
 
  private:
-  void receiveCommand(const geometry_msgs::TwistStamped::ConstPtr& command);
+  void receiveCommand(const ros::MessageEvent<geometry_msgs::TwistStamped const>& event);
   void receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose);
-  void warn(const std::string& text) const;
+  enum class Trouble { POSE_LOST, POSE_DROPPED, COMMAND_LOST, COMMAND_DROPPED, SEVERAL_SENDERS };
+
+  void warn(Trouble trouble, const std::string& text) const;
   pbd::Twist commanded() const;
+  std::vector<std::string> presentSenders() const;
 
   std::string name_;
   DrivenBy driven_by_;
@@ -59,7 +64,8 @@ class AgentLink {
   CommandInbox commands_;
   PoseInbox poses_;
   ros::Time newest_state_;
-  mutable ros::WallTime quiet_until_;
+  std::map<std::string, ros::SteadyTime> senders_;  // of commands, and when they were heard last
+  mutable std::map<Trouble, ros::WallTime> quiet_until_;
   ros::Publisher pose_publisher_, wrench_publisher_;
   ros::Subscriber subscriber_;
 };

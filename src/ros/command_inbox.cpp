@@ -25,6 +25,7 @@ std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, co
     why << "its stamp " << command.header.stamp << " is not newer than the last one, " << stamp_;
   } else {
     received_ = true;
+    received_at_ = ros::SteadyTime::now();
     stamp_ = command.header.stamp;
     twist_ = twist;
   }
@@ -36,7 +37,8 @@ pbd::Twist CommandInbox::command(const ros::Time& now, double timeout) const {
 }
 
 bool CommandInbox::timedOut(const ros::Time& now, double timeout) const {
-  return received_ && (now - stamp_).toSec() > timeout;
+  return received_ &&
+         ((now - stamp_).toSec() > timeout || (ros::SteadyTime::now() - received_at_).toSec() > timeout);
 }
 
 }  // namespace deformable_manipulation

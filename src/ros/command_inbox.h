@@ -26,7 +26,8 @@ class CommandInbox {
   //! Whether the newest accepted command answers this state.
   bool answers(const ros::Time& state) const { return received_ && stamp_ == state; }
 
-  //! The newest command, or rest if there is none or it answers a state older than the timeout [s].
+  //! The newest command, or rest if there is none, or it or the state that it answers is older than
+  //! the timeout [s]. Its own age counts by the steady clock: the ROS clock may stand still.
   pbd::Twist command(const ros::Time& now, double timeout) const;
 
   //! Whether command() is at rest because commands stopped coming.
@@ -42,6 +43,7 @@ class CommandInbox {
   std::string frame_;
   bool received_ = false;
   ros::Time stamp_;
+  ros::SteadyTime received_at_;
   pbd::Twist twist_;
 };
 

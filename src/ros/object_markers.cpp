@@ -8,10 +8,11 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kLeastWidth = 0.012;    // m, so that a thin rope can be seen
-constexpr double kCopyWidth = 0.006;     // m
+constexpr double kLeastWidth = 0.016;    // m, so that a thin rope can be seen
+constexpr double kCopyWidth = 0.005;     // m
 constexpr double kAgentDiameter = 0.07;  // m
-constexpr double kTextHeight = 0.08;     // m
+constexpr double kTextHeight = 0.09;     // m
+constexpr double kNameHeight = 0.17;     // m above the agent, clear of the copies of usual displacements
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a) {
   std_msgs::ColorRGBA result;
@@ -68,7 +69,7 @@ void drawAgent(const ObjectState& state, int index, visualization_msgs::MarkerAr
   array.markers.push_back(ball);
   Marker name = marker(state, "agent_names", index, Marker::TEXT_VIEW_FACING, color(0.1, 0.1, 0.1, 1.0));
   name.pose.position = ball.pose.position;
-  name.pose.position.z += 0.5 * kAgentDiameter + kTextHeight;
+  name.pose.position.z += kNameHeight;
   name.scale.z = kTextHeight;
   name.text = state.agents[index];
   array.markers.push_back(name);

@@ -4,6 +4,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "deformable_manipulation/Step.h"
@@ -33,7 +34,7 @@ class RunControl {
 
   bool reset_wanted_ = false;
   bool paused_ = false;
-  unsigned steps_ = 0;  // cycles to make while paused
+  std::uint64_t steps_ = 0;  // cycles to make while paused
   std::vector<ros::ServiceServer> servers_;
 };
 

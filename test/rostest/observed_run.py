@@ -80,9 +80,9 @@ class Messages(list):
         position = start
         with self._arrival:
             while True:
-                for position in range(position, len(self)):
-                    if condition(self[position]):
-                        return self[position]
+                for message in self[position:]:
+                    if condition(message):
+                        return message
                 position = max(start, len(self))
                 if not self._arrival.wait(deadline - time.monotonic()):
                     raise AssertionError(

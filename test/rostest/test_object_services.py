@@ -64,7 +64,7 @@ class ObjectServicesTest(unittest.TestCase):
 
     def held_particles(self):
         state = self.next_state()
-        return [int(particle) for particle in state.agent_particles[agent_order(state, self.scenario)]]
+        return state.agent_particles[agent_order(state, self.scenario)].tolist()
 
     def test_copies_are_added(self):
         before = copies(self.next_state())

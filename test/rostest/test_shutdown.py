@@ -42,10 +42,10 @@ class ShutdownTest(unittest.TestCase):
             stop("/{}_controller".format(agent))
         for agent, messages in commands.items():
             poll(messages.is_disconnected, "the end of {}'s controller".format(agent))
-            last = [speed(message) for message in messages[-4:]]
+            last = [speed(message) for message in messages[-30:]]
             with self.subTest(agent=agent, last=last):
                 self.assertEqual(last[-1], 0.0)
-                self.assertTrue(any(last))
+                self.assertTrue(any(last))  # it moved until then
 
 
 if __name__ == "__main__":

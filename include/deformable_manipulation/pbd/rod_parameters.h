@@ -1,5 +1,6 @@
 #pragma once
 
+#include "deformable_manipulation/pbd/errors.h"
 #include "deformable_manipulation/pbd/types.h"
 
 namespace deformable_manipulation {
@@ -31,8 +32,8 @@ struct RodParameters {
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  //!< [m/s^2]
   Pose pose;                                   //!< undeformed rod: first end at the position, along the pose's x axis
 
-  //! @throw ParameterError with every parameter that is out of range.
-  void check() const;
+  //! Notes every parameter that is out of range.
+  void check(ParameterCheck& check) const;
 
   double segmentLength() const { return length / segments; }  //!< [m]
   double segmentMass() const;                                 //!< [kg]

@@ -47,10 +47,11 @@ def to_observation(state, distances, scenario) -> Observation:
 
     Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
-    if state.header.frame_id != scenario.frame:
-        raise MessageError(
-            f"header.frame_id: '{state.header.frame_id}', expected '{scenario.frame}'"
-        )
+    for name, message in (("state", state), ("distances", distances)):
+        if message.header.frame_id != scenario.frame:
+            raise MessageError(
+                f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
+            )
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
     scenario_index[order] = np.arange(len(order))

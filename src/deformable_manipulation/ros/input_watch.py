@@ -1,4 +1,4 @@
-"""Notices when messages stop coming."""
+"""Notices when messages stop coming, or come late."""
 
 import time
 
@@ -31,3 +31,12 @@ class InputWatch:
             elif now - last > self._timeout:
                 lost.append(f"no {name} for {now - last:.1f} s")
         return ", ".join(lost)
+
+
+def find_age_fault(age, timeout):
+    """A clause that says why a message of this age by its stamp [s] is not used; empty if it is."""
+    if age > timeout:
+        return f"its stamp is {age:.1f} s old"
+    if age < -timeout:
+        return f"its stamp is {-age:.1f} s in the future; keep the clocks together"
+    return ""

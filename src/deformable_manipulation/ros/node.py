@@ -1,7 +1,9 @@
 """What the package's rospy nodes have in common."""
 
+import re
 import sys
 import threading
+import time
 
 import numpy as np
 import rospy
@@ -14,6 +16,9 @@ BUFFER_SIZE = 1 << 22  # bytes
 
 # Messages kept for a subscriber that is slow for a moment: a recorder must not lose any.
 QUEUE_SIZE = 100
+
+# rospy sends from threads of its own, and closes without waiting for them.
+_SENDING_TIME = 0.1  # s
 
 
 def start(name):
@@ -41,6 +46,25 @@ def refuse(reason):
     """Leave the process because it cannot work."""
     rospy.logfatal(reason)
     sys.exit(1)
+
+
+class Warnings:
+    """Warnings to the log, each at most once per period [s] of real time.
+
+    Texts that differ only in their numbers count as the same.
+    """
+
+    def __init__(self, period=5.0, clock=time.monotonic):
+        self._period = period
+        self._clock = clock
+        self._last = {}
+
+    def warn(self, text):
+        now = self._clock()
+        kind = re.sub(r"[\d.]+", "", text)
+        if kind not in self._last or now - self._last[kind] > self._period:
+            self._last[kind] = now
+            rospy.logwarn(text)
 
 
 def _require_numpy():
@@ -75,6 +99,12 @@ def await_subscribers(publisher):
     rospy.on_shutdown(stopped.set)
     while publisher.get_num_connections() < wanted and not stopped.wait(0.01):
         rospy.loginfo_throttle(5.0, f"Waiting for {wanted} subscribers of {publisher.name}.")
+
+
+def publish_last(publisher, message):
+    """Publish at shutdown, and leave the message time to go out before the publisher is closed."""
+    publisher.publish(message)
+    rospy.rostime.wallsleep(_SENDING_TIME)
 
 
 def every(period, callback):

@@ -8,21 +8,40 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from deformable_manipulation.distance.planes import PlaneFrame
 
-_GROUND = ColorRGBA(0.62, 0.62, 0.6, 1.0)
-_LINE = ColorRGBA(0.8, 0.0, 0.6, 1.0)
-_LINE_WIDTH = 0.008  # m
-_TEXT_HEIGHT = 0.06  # m
+_GROUND = np.array([0.80, 0.78, 0.74])  # red, green, blue
+_LINE = ColorRGBA(0.75, 0.0, 0.55, 1.0)
+_COPY_LINE = ColorRGBA(0.75, 0.0, 0.55, 0.35)
+_LINE_WIDTH, _COPY_LINE_WIDTH = 0.01, 0.004  # m
+_TEXT_HEIGHT = 0.08  # m
+_TEXT_DISTANCE = 0.2  # m from the object, on the side away from the obstacle
+
+# RViz lights from where the viewer is, which leaves what faces upwards dark. The colors have the
+# light in them instead: from above, a little from the front and the side.
+_TO_LIGHT = np.array([0.35, -0.25, 0.9]) / np.linalg.norm([0.35, -0.25, 0.9])
+_AMBIENT = 0.6  # the share of light that comes from everywhere
 
 
 def obstacle_markers(obstacles, frame, half_width=0.25):
     """The piece of each planar obstacle within ``half_width`` [m] of its plane."""
     markers = []
     for index, obstacle in enumerate(obstacles):
-        marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST, _GROUND)
+        marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST)
         marker.scale.x = marker.scale.y = marker.scale.z = 1.0
-        marker.points = [Point(*corner) for corner in _prism(obstacle, half_width)]
+        marker.color.a = 1.0
+        corners = _prism(obstacle, half_width)
+        marker.points = [Point(*corner) for corner in corners]
+        marker.colors = [ColorRGBA(*color, 1.0) for color in _lit(corners) for _ in range(3)]
         markers.append(marker)
     return MarkerArray(markers)
+
+
+def _lit(corners):
+    """Colors (T, 3) of the triangles with corners (3 T, 3) that face outwards."""
+    first, second, third = np.moveaxis(corners.reshape(-1, 3, 3), 1, 0)
+    normals = np.cross(second - first, third - first)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    brightness = _AMBIENT + (1.0 - _AMBIENT) * np.maximum(normals @ _TO_LIGHT, 0.0)
+    return brightness[:, None] * _GROUND
 
 
 def _prism(obstacle, half_width):
@@ -51,26 +70,46 @@ def _triangles(polygon):
 
 
 def distance_markers(distances, header):
-    """A line and its length for the minimum distance of the object, lines for its copies."""
-    markers = []
-    lines = _marker(header, "distances", 0, Marker.LINE_LIST, _LINE)
-    lines.scale.x = _LINE_WIDTH
-    for copy, first in enumerate(distances.offsets[:-1]):
-        if first == distances.offsets[copy + 1]:
-            continue
-        ends = Point(*distances.object_point[first]), Point(*distances.obstacle_point[first])
-        lines.points.extend(ends)
-        if copy == 0:
-            text = _marker(header, "distances", 1, Marker.TEXT_VIEW_FACING, _LINE)
-            text.scale.z = _TEXT_HEIGHT
-            text.text = f"{distances.minimum[0]:.3f} m"
-            middle = 0.5 * (distances.object_point[first] + distances.obstacle_point[first])
-            text.pose.position = Point(*(middle + [0.0, 0.15, 0.0]))
-            markers.append(text)
-    if lines.points:
-        markers.append(lines)
-    return MarkerArray(markers)
+    """The object's minimum distance, a line with its length, and thin lines for its copies'."""
+    first = distances.offsets[:-1]
+    first = first[first < distances.offsets[1:]]
+    own = first[distances.offsets[0] == first]
+    line = _marker(header, "distances", 0, Marker.LINE_LIST, _LINE)
+    text = _marker(header, "distances", 1, Marker.TEXT_VIEW_FACING, _LINE)
+    copy_lines = _marker(header, "copy_distances", 0, Marker.LINE_LIST, _COPY_LINE)
+    _draw_lines(line, distances, own, _LINE_WIDTH)
+    _draw_length(text, distances, own)
+    _draw_lines(copy_lines, distances, first[len(own) :], _COPY_LINE_WIDTH)
+    return MarkerArray([line, text, copy_lines])
 
 
-X    marker.pose.orientation.w = 1.0
+def _draw_lines(marker, distances, features, width):
+    """Lines between the nearest points of some features."""
+    marker.scale.x = width
+    for feature in features:
+        marker.points.append(Point(*distances.object_point[feature]))
+        marker.points.append(Point(*distances.obstacle_point[feature]))
+    _delete_if_empty(marker, features)
+
+
+def _draw_length(marker, distances, features):
+    """The distance of a feature in words, on the object's free side."""
+    marker.scale.z = _TEXT_HEIGHT
+    for feature in features:
+        marker.text = f"{distances.distance[feature]:.3f} m"
+        place = distances.object_point[feature] + _TEXT_DISTANCE * distances.normal[feature]
+        marker.pose.position = Point(*place)
+    _delete_if_empty(marker, features)
+
+
+def _delete_if_empty(marker, features):
+    """What was drawn before must not stay."""
+    if len(features) == 0:
+        marker.action = Marker.DELETE
+
+
+def _marker(header, namespace, number, kind, color=None):
+    marker = Marker(header=header, ns=namespace, id=number, type=kind, color=color or ColorRGBA())
+    marker.action = Marker.ADD
+    marker.pose.orientation.w = 1.0
     return marker

@@ -1,6 +1,7 @@
 """Programs that a command starts and ends again, whatever happens to it."""
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -9,6 +10,7 @@ _POLLING_PERIOD = 0.05  # s
 # roslaunch gives its nodes 15 s before it becomes insistent.
 _PATIENCE = 40.0  # s, from the request to end until the end is forced
 _LOG_LINES = 15
+_COLORS = re.compile(r"\x1b\[[0-9;]*m|\x1b\].*?\x07")  # a terminal's, and its window title
 
 
 class ProgramError(RuntimeError):
@@ -57,7 +59,7 @@ class Program:
     def error(self, message):
         """A ProgramError with the end of what the program printed."""
         with open(str(self._log), errors="replace") as log:
-            lines = log.read().strip().splitlines()[-_LOG_LINES:]
+            lines = _COLORS.sub("", log.read()).strip().splitlines()[-_LOG_LINES:]
         printed = "\n  ".join([f"The last that {self.name} printed:"] + lines)
         return ProgramError(f"{message}.\n{printed}" if lines else f"{message}.")
 

@@ -42,7 +42,7 @@ def virtual_display(size, directory):
     os.set_blocking(reading, False)
     # The server chooses a free display number and writes it when it is ready.
     command = ["Xvfb", "-displayfd", str(writing), "-fbdir", str(directory), "-screen", "0"]
-    command += ["{}x{}x24".format(*size), "-nolisten", "tcp", "-noreset"]
+    command += ["{}x{}x24".format(*size), "-nolisten", "tcp", "-noreset", "-nocursor"]
     log = Path(directory) / "xvfb.log"
     with open(reading, "rb") as answer, open(writing, "wb"):
         with Program("Xvfb", command, log, pass_fds=(writing,)) as server:

@@ -132,10 +132,12 @@ def test_a_state_that_does_not_fit_is_refused_by_name(state, distances, scenario
         conversions.to_observation(transmitted(state), transmitted(distances), scenario)
 
 
-def test_a_state_in_another_frame_is_refused(state, distances, scenario):
-    state.header.frame_id = "odom"
+@pytest.mark.parametrize("kind", ["state", "distances"])
+def test_another_frame_is_refused(state, distances, scenario, kind):
+    received = {"state": transmitted(state), "distances": transmitted(distances)}
+    received[kind].header.frame_id = "odom"
     with pytest.raises(MessageError, match="frame_id: 'odom'.*'map'"):
-        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+        conversions.to_observation(received["state"], received["distances"], scenario)
 
 
 @pytest.mark.parametrize(

@@ -35,11 +35,35 @@ def test_both_of_a_cycle_come_together_in_either_order(pairing, pairs, state_fir
     assert pairs == [(state, distances)]
 
 
-def test_messages_of_different_cycles_are_never_paired(pairing, pairs):
-    for cycle in range(10):
+@pytest.mark.parametrize("behind", ["distances", "state"])
+def test_messages_some_cycles_behind_find_their_counterpart(pairing, pairs, behind):
+    late = 3
+    for cycle in range(10 + late):
+        states = cycle - late if behind == "state" else cycle
+        distances = cycle - late if behind == "distances" else cycle
+        if states >= 0:
+            pairing.state(state_message(1.0 + states, states))
+        if distances >= 0:
+            pairing.distances(distances_message(1.0 + distances, distances))
+    assert cycles(pairs) == [(0, cycle) for cycle in range(10)]
+    assert all(state.cycle == distances.cycle for state, distances in pairs)
+
+
+def test_pairs_only_advance(pairing, pairs):
+    for cycle in range(3):
         pairing.state(state_message(1.0 + cycle, cycle))
-        pairing.distances(distances_message(0.5 + cycle, cycle - 1) if cycle else distances_message())
-    assert cycles(pairs) == [(0, 0)]
+    for cycle in (2, 1, 0):
+        pairing.distances(distances_message(1.0 + cycle, cycle))
+    assert cycles(pairs) == [(0, 2)]
+
+
+def test_what_waits_in_vain_is_forgotten(pairing, pairs):
+    for cycle in range(1000):
+        pairing.state(state_message(1.0 + cycle, cycle))
+    pairing.distances(distances_message(1.0, 0))
+    assert pairs == []
+    pairing.distances(distances_message(1000.0, 999))
+    assert cycles(pairs) == [(0, 999)]
 
 
 def test_messages_of_different_runs_are_never_paired(pairing, pairs):

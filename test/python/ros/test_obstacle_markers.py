@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+from std_msgs.msg import Header
+from visualization_msgs.msg import Marker
+
+from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
+from deformable_manipulation.scenario import load_scenario
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    return load_scenario("rope_one_assistant")
+
+
+@pytest.fixture(scope="module")
+def triangles(scenario):
+    (marker,) = obstacle_markers(scenario.obstacles, "map").markers
+    points = np.array([(p.x, p.y, p.z) for p in marker.points])
+    colors = np.array([(c.r, c.g, c.b, c.a) for c in marker.colors])
+    return points.reshape(-1, 3, 3), colors.reshape(-1, 3, 4)
+
+
+def signed_volume(triangles):
+    return np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0
+
+
+def test_the_piece_is_closed_and_faces_outwards(scenario, triangles):
+    points, _ = triangles
+    y, z = np.array(scenario.obstacles[0].points).T
+    area = 0.5 * abs(np.dot(y, np.roll(z, -1)) - np.dot(z, np.roll(y, -1)))
+    assert signed_volume(points) == pytest.approx(0.5 * area, rel=1e-9)
+
+
+def test_what_faces_upwards_is_lit(triangles):
+    points, colors = triangles
+    assert (colors == colors[:, :1]).all() and (colors[..., 3] == 1.0).all()
+    normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    upwards = normals[:, 2] > 0.9 * np.linalg.norm(normals, axis=1)
+    downwards = normals[:, 2] < -0.9 * np.linalg.norm(normals, axis=1)
+    assert upwards.sum() > 50 and downwards.any()
+    assert colors[upwards, 0, :3].min() > 0.6
+    assert colors[upwards, 0, :3].min() > colors[downwards, 0, :3].max()
+
+
+def straight_ropes(heights):
+    y = np.linspace(0.0, 1.0, 11)
+    return np.stack([np.stack((0 * y, y, 0 * y + height), axis=1) for height in heights])
+
+
+def test_the_minimum_distances_are_drawn(scenario):
+    distances = make_minimum_distance(scenario).compute(straight_ropes([0.6, 0.7, 0.8]))
+    header = Header(frame_id="map", seq=3)
+    line, text, copies = distance_markers(distances, header).markers
+    assert all(marker.action == Marker.ADD for marker in (line, text, copies))
+    assert all(marker.header == header for marker in (line, text, copies))
+    start, end = (np.array([p.x, p.y, p.z]) for p in line.points)
+    radius = scenario.object.radius
+    length = np.linalg.norm(end - start)
+    assert length == pytest.approx(distances.minimum[0], abs=1.01 * radius)
+    assert text.text == f"{distances.minimum[0]:.3f} m"
+    assert text.pose.position.z > start[2]
+    assert len(copies.points) == 4
+    assert len({(marker.ns, marker.id) for marker in (line, text, copies)}) == 3
+
+
+def test_what_is_no_longer_there_is_deleted(scenario):
+    distances = make_minimum_distance(scenario).compute(straight_ropes([0.6]))
+    _, _, copies = distance_markers(distances, Header()).markers
+    assert copies.action == Marker.DELETE

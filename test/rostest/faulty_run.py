@@ -1,0 +1,152 @@
+"""What the fault tests have in common: a run that moves, is disturbed, stops and goes on."""
+
+import os
+import signal
+import subprocess
+import unittest
+from xmlrpc.client import ServerProxy
+
+import rosgraph
+import rospy
+from observed_run import (
+    PACKAGE,
+    Messages,
+    call,
+    observe_states,
+    poll,
+    read_scenario,
+    velocities_of,
+)
+from roslib.packages import find_node
+from rosgraph_msgs.msg import Log
+from std_srvs.srv import Trigger
+
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.msg import ControllerState
+
+AGENT = "assistant_1"
+FOLLOWING = (Status.NOMINAL, Status.CONSTRAINED)
+EXECUTABLES = {
+    "simulator": "simulator_node",
+    "minimum_distance": "minimum_distance_node",
+    "leader": "leader_node",
+    "controller": "controller_node",
+}
+_MOVING = 0.01  # m/s
+_STANDING = 20  # cycles at rest in a row
+_SCHEDULING = 0.5  # s, by which a busy machine may let a message wait
+
+
+class FaultTest(unittest.TestCase):
+    """A test that finds the assistant following, and no node gone at the end."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scenario = read_scenario()
+        cls.row = [agent.name for agent in cls.scenario.agents].index(AGENT)
+        poll(lambda: all(map(process_of, EXECUTABLES)), "all nodes")
+        cls.processes = {name: process_of(name) for name in EXECUTABLES}
+        cls.log = Messages("/rosout", Log)
+        cls.decisions = Messages(AGENT + "/controller_state", ControllerState)
+        cls.states = observe_states()
+
+    def setUp(self):
+        call("reset", Trigger)
+        self.assert_follows()
+        self.log_start = len(self.log)
+        self.addCleanup(self.assert_no_other_node_is_gone)
+
+    def assert_no_other_node_is_gone(self):
+        for name, process in self.processes.items():
+            self.assertEqual(process_of(name), process, name)
+            os.kill(process, 0)  # raises an error where there is no such process
+
+    def velocity(self, state, row=None):
+        """Velocity (3,) [m/s] of the assistant, or of another agent of the scenario."""
+        return velocities_of(state, self.scenario)[self.row if row is None else row]
+
+    def assert_follows(self):
+        """From now on, sooner or later, the assistant follows and moves."""
+        self.decisions.wait_for(
+            lambda decision: decision.status in FOLLOWING, "following", len(self.decisions)
+        )
+        return self.states.wait_for(
+            lambda state: abs(self.velocity(state)).max() > _MOVING,
+            "a moving assistant",
+            len(self.states),
+        )
+
+    def assert_stops(self, since):
+        """The assistant stands still within the timeout of a time, and goes on to do so.
+
+        Returns:
+            the state from which on it stands still.
+        """
+        start = next(
+            (i for i, state in enumerate(self.states) if state.header.stamp > since),
+            len(self.states),
+        )
+        last = self.states.wait_for(Standing(self), "an assistant at rest", start)
+        index = next(i for i, state in enumerate(self.states) if state is last)
+        first = self.states[index - _STANDING + 1]
+        delay = (first.header.stamp - since).to_sec()
+        rospy.loginfo("%s: at rest %.2f s after the fault", self.id(), delay)
+        self.assertLess(delay, self.patience())
+        return first
+
+    def patience(self):
+        """Time [s] from a fault to a stop: watches look twice per timeout."""
+        return 1.5 * self.scenario.controller.timeout + _SCHEDULING
+
+    def assert_says(self, *words):
+        """The log has a line with all these words since the start of the test."""
+        self.log.wait_for(
+            lambda line: all(word in line.msg for word in words), str(words), self.log_start
+        )
+
+    def assert_waits(self, *words):
+        """The controller waits from now on, sooner or later, and says why with these words."""
+        decision = self.decisions.wait_for(
+            lambda decision: decision.status == Status.WAITING
+            and all(word in decision.status_text for word in words),
+            "waiting: {}".format(words),
+            len(self.decisions),
+        )
+        self.assertFalse(
+            any((decision.velocity_x, decision.velocity_y, decision.velocity_z)), decision
+        )
+
+    def kill(self, name):
+        """End a node in a way that it cannot react to; the time of it."""
+        now = rospy.Time.now()
+        os.kill(self.processes.pop(name), signal.SIGKILL)
+        return now
+
+    def start(self, name, *arguments, executable=None):
+        """Start a node, with the parameters it had if it ran before."""
+        (path,) = find_node(PACKAGE, executable or EXECUTABLES[name])[:1]
+        process = subprocess.Popen([path, "__name:=" + name, *arguments])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.terminate)
+        return process
+
+
+class Standing:
+    """True at the state that completes a row of states at which the assistant is at rest."""
+
+    def __init__(self, test):
+        self._test = test
+        self._count = 0
+
+    def __call__(self, state):
+        self._count = 0 if self._test.velocity(state).any() else self._count + 1
+        return self._count >= _STANDING
+
+
+def process_of(name):
+    """Number of a node's process; 0 where there is no such node that answers."""
+    try:
+        uri = rosgraph.Master(rospy.get_name()).lookupNode(rospy.resolve_name(name))
+        return ServerProxy(uri).getPid(rospy.get_name())[2]
+    except (rosgraph.MasterError, OSError):
+        return 0
