@@ -1,5 +1,6 @@
 #include "agent_link.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "state_message.h"
@@ -74,7 +75,7 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
     return true;
   }
   if (!poses_.fresh(ros::Time::now())) {
-    warn(Trouble::POSE_LOST, "is lost: no pose on " + subscriber_.getTopic() + " newer than " + seconds(timeout_) +
+    warn("is lost: no pose on " + subscriber_.getTopic() + " newer than " + seconds(timeout_) +
                                  "; no states until it comes");
     return false;
   }
@@ -84,7 +85,7 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
 pbd::Twist AgentLink::commanded() const {
   const std::vector<std::string> senders = presentSenders();
   if (senders.size() > 1) {
-    warn(Trouble::SEVERAL_SENDERS, "stands still: " + std::to_string(senders.size()) + " nodes send commands on " +
+    warn("stands still: " + std::to_string(senders.size()) + " nodes send commands on " +
                                        subscriber_.getTopic() + ", " + joined(senders) + "; leave one of them");
     return pbd::Twist();
   }
@@ -93,8 +94,7 @@ pbd::Twist AgentLink::commanded() const {
   }
   const ros::Time now = ros::Time::now();
   if (commands_.timedOut(now, timeout_)) {
-    warn(Trouble::COMMAND_LOST,
-         "stands still: no command on " + subscriber_.getTopic() + " for more than " + seconds(timeout_));
+    warn("stands still: no command on " + subscriber_.getTopic() + " for more than " + seconds(timeout_));
   }
   return commands_.command(now, timeout_);
 }
@@ -119,21 +119,24 @@ void AgentLink::receiveCommand(const ros::MessageEvent<geometry_msgs::TwistStamp
   const ros::Time latest = lockstep_ ? newest_state_ : ros::Time::now() + ros::Duration(timeout_);
   const std::string fault = commands_.receive(*event.getConstMessage(), latest);
   if (!fault.empty()) {
-    warn(Trouble::COMMAND_DROPPED, "gets a command that is dropped: " + fault);
+    warn("gets a command that is dropped: " + fault);
   }
 }
 
 void AgentLink::receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
   const std::string fault = poses_.receive(*pose);
   if (!fault.empty()) {
-    warn(Trouble::POSE_DROPPED, "gets a pose that is dropped: " + fault);
+    warn("gets a pose that is dropped: " + fault);
   }
 }
 
-void AgentLink::warn(Trouble trouble, const std::string& text) const {
-  const ros::WallTime now = ros::WallTime::now();
-  if (now > quiet_until_[trouble]) {
-    quiet_until_[trouble] = now + ros::WallDuration(kWarningPeriod);
+void AgentLink::warn(const std::string& text) const {
+  std::string kind = text;
+  kind.erase(std::remove_if(kind.begin(), kind.end(), [](char c) { return c == '.' || ('0' <= c && c <= '9'); }),
+             kind.end());
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (now > quiet_until_[kind]) {
+    quiet_until_[kind] = now + ros::WallDuration(kWarningPeriod);
     ROS_WARN_STREAM("Agent " << name_ << " " << text << ".");
   }
 }

@@ -50,9 +50,7 @@ class AgentLink {
  private:
   void receiveCommand(const ros::MessageEvent<geometry_msgs::TwistStamped const>& event);
   void receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose);
-  enum class Trouble { POSE_LOST, POSE_DROPPED, COMMAND_LOST, COMMAND_DROPPED, SEVERAL_SENDERS };
-
-  void warn(Trouble trouble, const std::string& text) const;
+  void warn(const std::string& text) const;
   pbd::Twist commanded() const;
   std::vector<std::string> presentSenders() const;
 
@@ -65,7 +63,7 @@ class AgentLink {
   PoseInbox poses_;
   ros::Time newest_state_;
   std::map<std::string, ros::SteadyTime> senders_;  // of commands, and when they were heard last
-  mutable std::map<Trouble, ros::WallTime> quiet_until_;
+  mutable std::map<std::string, ros::SteadyTime> quiet_until_;  // for each warning, numbers apart
   ros::Publisher pose_publisher_, wrench_publisher_;
   ros::Subscriber subscriber_;
 };

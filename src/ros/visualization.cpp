@@ -16,12 +16,12 @@ Visualization::Visualization(ros::NodeHandle& node, double diameter, std::string
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)) {}
 
 void Visualization::show(const ObjectState& state) {
+  trails_.add(state);  // every state, so that a trail does not depend on the machine's speed
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < kPeriod) {
     return;
   }
   last_ = now;
-  trails_.add(state);
   if (markers_.getNumSubscribers() > 0) {
     markers_.publish(object_.draw(state));
     markers_.publish(trails_.draw());

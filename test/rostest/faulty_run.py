@@ -17,8 +17,8 @@ from observed_run import (
     read_scenario,
     velocities_of,
 )
-from roslib.packages import find_node
 from rosgraph_msgs.msg import Log
+from roslib.packages import find_node
 from std_srvs.srv import Trigger
 
 from deformable_manipulation.control.status import Status
@@ -76,6 +76,18 @@ class FaultTest(unittest.TestCase):
             len(self.states),
         )
 
+    def assert_goes_on(self, cycles=50):
+        """From now on, sooner or later, the assistant follows for so many cycles on end.
+
+        Returns:
+            the decisions from the call to then.
+        """
+        start = len(self.decisions)
+        self.decisions.wait_for(
+            InARow(cycles, lambda decision: decision.status in FOLLOWING), "following", start
+        )
+        return self.decisions[start:]
+
     def assert_stops(self, since):
         """The assistant stands still within the timeout of a time, and goes on to do so.
 
@@ -86,7 +98,8 @@ class FaultTest(unittest.TestCase):
             (i for i, state in enumerate(self.states) if state.header.stamp > since),
             len(self.states),
         )
-        last = self.states.wait_for(Standing(self), "an assistant at rest", start)
+        standing = InARow(_STANDING, lambda state: not self.velocity(state).any())
+        last = self.states.wait_for(standing, "an assistant at rest", start)
         index = next(i for i, state in enumerate(self.states) if state is last)
         first = self.states[index - _STANDING + 1]
         delay = (first.header.stamp - since).to_sec()
@@ -131,16 +144,20 @@ class FaultTest(unittest.TestCase):
         return process
 
 
-class Standing:
-    """True at the state that completes a row of states at which the assistant is at rest."""
+class InARow:
+    """True at the message that completes a row of so many for which a condition holds.
 
-    def __init__(self, test):
-        self._test = test
+    A busy machine may interrupt a run for longer than the timeout, but not again and again.
+    """
+
+    def __init__(self, count, condition):
+        self._wanted = count
+        self._condition = condition
         self._count = 0
 
-    def __call__(self, state):
-        self._count = 0 if self._test.velocity(state).any() else self._count + 1
-        return self._count >= _STANDING
+    def __call__(self, message):
+        self._count = self._count + 1 if self._condition(message) else 0
+        return self._count >= self._wanted
 
 
 def process_of(name):

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""A leader that is driven by its pose: a real one, which is followed, lost and found again.
+
+The test publishes the pose.
+"""
+
+import numpy as np
+import rospy
+from faulty_run import FaultTest
+from geometry_msgs.msg import Point, PoseStamped, Quaternion
+from observed_run import run_tests
+
+from deformable_manipulation.ros import node
+from deformable_manipulation.ros.conversions import agent_positions
+
+PERIOD = 0.01  # s
+SPEED = 0.05  # m/s
+CLOSE = 0.005  # m: a few cycles of that speed
+NAN = float("nan")
+
+
+class WalkingLeader:
+    """Publishes poses along x as time goes by.
+
+    Attributes:
+        spoil: function of a PoseStamped, gives the one that is published, or None.
+    """
+
+    def __init__(self, start):
+        self.spoil = intact
+        self._start = np.array(start)
+        self._began = rospy.Time.now()
+        self._publisher = rospy.Publisher("leader/pose", PoseStamped, queue_size=1)
+        node.every(PERIOD, self._publish)
+
+    def position(self, stamp):
+        travelled = SPEED * (stamp - self._began).to_sec()
+        return self._start + [travelled, 0.0, 0.0]
+
+    def _publish(self):
+        pose = PoseStamped()
+        pose.header.stamp = rospy.Time.now()
+        pose.header.frame_id = "map"
+        pose.pose.position = Point(*self.position(pose.header.stamp))
+        pose.pose.orientation = Quaternion(0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
+        pose = self.spoil(pose)
+        if pose is not None:
+            self._publisher.publish(pose)
+
+
+def intact(pose):
+    return pose
+
+
+def lost(_pose):
+    return None
+
+
+def late(pose):
+    pose.header.stamp -= rospy.Duration(1.0)
+    return pose
+
+
+def not_finite(pose):
+    pose.pose.position.y = NAN
+    return pose
+
+
+def in_another_frame(pose):
+    pose.header.frame_id = "tool0"
+    return pose
+
+
+def without_orientation(pose):
+    pose.pose.orientation = Quaternion()
+    return pose
+
+
+class FaultPoseTest(FaultTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.leader = WalkingLeader([0.0, 0.0, 1.35])
+        super().setUpClass()
+
+    def tearDown(self):
+        self.leader.spoil = intact
+
+    def test_the_pose_is_followed(self):
+        for state in self.states.wait_for_more(50):
+            position = agent_positions(state, self.scenario)[self.scenario.leader_index]
+            expected = self.leader.position(state.header.stamp)
+            np.testing.assert_allclose(position, expected, 0.0, CLOSE)
+
+    def assert_stops_and_goes_on(self, spoil, *words):
+        with self.subTest(words=words):
+            since = rospy.Time.now()
+            self.leader.spoil = spoil
+            self.assert_waits("no state for")
+            self.assertLess(
+                (self.states[-1].header.stamp - since).to_sec(), self.patience(), "states go on"
+            )
+            self.assert_says(*words)
+            self.leader.spoil = intact
+            self.assert_follows()
+
+    def test_lost(self):
+        self.assert_stops_and_goes_on(lost, "leader is lost: no pose on /leader/pose newer than 0.2 s")
+
+    def test_late(self):
+        self.assert_stops_and_goes_on(late, "leader gets a pose that is dropped: its stamp", "not newer")
+
+    def test_not_finite(self):
+        self.assert_stops_and_goes_on(not_finite, "it is not finite")
+
+    def test_in_another_frame(self):
+        self.assert_stops_and_goes_on(in_another_frame, "it is in frame 'tool0', not in 'map'")
+
+    def test_without_orientation(self):
+        self.assert_stops_and_goes_on(without_orientation, "its quaternion has the norm 0, not 1")
+
+
+if __name__ == "__main__":
+    run_tests("fault_pose")
