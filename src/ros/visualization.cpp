@@ -26,9 +26,13 @@ void Visualization::show(const ObjectState& state) {
     markers_.publish(object_.draw(state));
     markers_.publish(trails_.draw());
   }
-  if (transforms_.getNumSubscribers() > 0) {
+  // Whoever has a transform already complains when it comes again.
+  const std::uint32_t listeners = transforms_.getNumSubscribers();
+  if (listeners > 0 && (state.header.stamp != transforms_stamp_ || listeners != listeners_)) {
+    transforms_stamp_ = state.header.stamp;
     sendTransforms(state);
   }
+  listeners_ = listeners;
 }
 
 void Visualization::sendTransforms(const ObjectState& state) {

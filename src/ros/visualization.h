@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "deformable_manipulation/ObjectState.h"
@@ -28,6 +29,8 @@ class Visualization {
   std::string tf_prefix_;
   ros::Publisher markers_, transforms_;
   std::chrono::steady_clock::time_point last_;
+  ros::Time transforms_stamp_;
+  std::uint32_t listeners_ = 0;  // subscribers of the transforms at the last time
 };
 
 }  // namespace deformable_manipulation

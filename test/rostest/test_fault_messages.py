@@ -103,7 +103,7 @@ def in_another_frame(header):
 
 
 def without_last_of(fields):
-    return [(spoiled(**{name: without_last}), name) for name in fields]
+    return [spoiled(**{name: without_last}) for name in fields]
 
 
 def with_nan_in(fields):
@@ -196,11 +196,11 @@ class FaultMessagesTest(FaultTest):
             self.assert_stops_and_goes_on([topic], how, topic, "'tool0'", "'map'")
 
     def test_of_the_wrong_size(self):
-        for how, name in without_last_of(
+        for how in without_last_of(
             ["agents", "agent_positions", "points", "displaced_agents", "copy_ready"]
         ):
             self.assert_stops_and_goes_on(["state"], how, "cannot be used")
-        for how, name in without_last_of(
+        for how in without_last_of(
             ["minimum_distances", "feature_offsets", "feature_distances", "normals",
              "feature_vertices", "feature_weights", "obstacle_velocities"]
         ):

@@ -104,10 +104,14 @@ class FaultPoseTest(FaultTest):
             self.assert_follows()
 
     def test_lost(self):
-        self.assert_stops_and_goes_on(lost, "leader is lost: no pose on /leader/pose newer than 0.2 s")
+        self.assert_stops_and_goes_on(
+            lost, "leader is lost: no pose on /leader/pose newer than 0.2 s"
+        )
 
     def test_late(self):
-        self.assert_stops_and_goes_on(late, "leader gets a pose that is dropped: its stamp", "not newer")
+        self.assert_stops_and_goes_on(
+            late, "leader gets a pose that is dropped: its stamp", "not newer"
+        )
 
     def test_not_finite(self):
         self.assert_stops_and_goes_on(not_finite, "it is not finite")

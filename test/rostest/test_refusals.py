@@ -83,23 +83,49 @@ class RefusalsTest(unittest.TestCase):
                     "assistant_1",
                 )
 
-    def test_a_launch_with_a_wrong_scenario_file(self):
-        text = SHORT_ROPE.read_text()
-        self.assertIn("offset: 0.05", text)
+    def assert_launch_refuses(self, path, *texts):
+        """A launch with this scenario file ends before any node starts."""
         port = free_port()
+        command = ["roslaunch", "--port", str(port), PACKAGE, "run.launch", "rviz:=false"]
+        output = self.assert_refuses(
+            start(
+                command + ["scenario:={}".format(path)],
+                ROS_MASTER_URI="http://localhost:{}".format(port),
+            ),
+            *texts
+        )
+        self.assertNotIn("started with pid", output)
+
+    def assert_launch_refuses_changes(self, changes, *texts):
+        """So does one with the short rope's file after these changes of its text."""
+        text = SHORT_ROPE.read_text()
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
         with tempfile.TemporaryDirectory() as folder:
             wrong = Path(folder) / "wrong.yaml"
-            wrong.write_text(text.replace("offset: 0.05", "offset: -1.0, colour: red"))
-            command = ["roslaunch", "--port", str(port), PACKAGE, "run.launch", "rviz:=false"]
-            output = self.assert_refuses(
-                start(
-                    command + ["scenario:={}".format(wrong)],
-                    ROS_MASTER_URI="http://localhost:{}".format(port),
-                ),
-                "controller.collision.offset",
-                "controller.collision.colour",
-            )
-        self.assertNotIn("started with pid", output)
+            wrong.write_text(text)
+            self.assert_launch_refuses(wrong, *texts)
+
+    def test_a_launch_with_wrong_types_and_ranges(self):
+        self.assert_launch_refuses_changes(
+            [
+                ("offset: 0.05", "offset: -1.0, colour: red"),
+                ("radius: 0.0035", "radius: [thin]"),
+                ("obstacles/ground.csv", "obstacles/no_such.csv"),
+            ],
+            "controller.collision.offset",
+            "controller.collision.colour",
+            "object.radius",
+            "obstacles.0.polygon",
+            "no_such.csv",
+        )
+
+    def test_a_launch_without_its_scenario_file(self):
+        self.assert_launch_refuses("/nowhere/missing.yaml", "/nowhere/missing.yaml")
+
+    def test_a_launch_with_a_file_that_is_not_yaml(self):
+        self.assert_launch_refuses_changes([("object:", "object: [")], "wrong.yaml")
 
 
 if __name__ == "__main__":

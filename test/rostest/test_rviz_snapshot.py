@@ -92,7 +92,9 @@ class RvizSnapshotTest(unittest.TestCase):
             status, _, complaints = self.run_command("--times", "0.5", "--view", "YZ")
             self.assertEqual(status, 0, complaints)
             pictures.append(self.read("short_rope_t000.5.png"))
-        np.testing.assert_array_equal(*pictures)
+        # Where two things are in the same depth, a pixel may show the one or the other.
+        different = np.any(pictures[0] != pictures[1], axis=2)
+        self.assertLess(different.mean(), 2e-4)
 
     def change_configuration(self, change):
         text = (SHARE / "rviz" / "rope_one_assistant.rviz").read_text()

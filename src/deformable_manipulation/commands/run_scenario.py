@@ -7,12 +7,8 @@ from pathlib import Path
 from typing import Optional, Sequence
 
 from deformable_manipulation.commands.check_scenario import override
-from deformable_manipulation.commands.interruption import (
-    exit_status,
-    interrupts_ignored,
-    terminate_as_interrupt,
-)
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.interruption import exit_status, interruptible, interrupts_ignored
 from deformable_manipulation.recording import RecordingError, RunRecorder
 from deformable_manipulation.recording.summary import describe
 from deformable_manipulation.scenario import ScenarioError, load_scenario
@@ -43,7 +39,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
-    with terminate_as_interrupt():
+    with interruptible():
         return _run(loop, recorder)
 
 

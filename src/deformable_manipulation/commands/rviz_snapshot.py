@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
 from deformable_manipulation.commands.check_scenario import override
-from deformable_manipulation.commands.interruption import exit_status, terminate_as_interrupt
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.scenario import (
     ScenarioError,
     load_scenario,
@@ -49,7 +49,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
     from deformable_manipulation.ros.program import ProgramError
 
-    with terminate_as_interrupt():
+    with interruptible():
         try:
             _take_all(scenario, times, arguments)
         except ProgramError as error:

@@ -6,6 +6,8 @@ import signal
 import subprocess
 import time
 
+from deformable_manipulation.interruption import check_interruption
+
 _POLLING_PERIOD = 0.05  # s
 # roslaunch gives its nodes 15 s before it becomes insistent.
 _PATIENCE = 40.0  # s, from the request to end until the end is forced
@@ -72,6 +74,7 @@ class Program:
         """
         deadline = time.monotonic() + timeout
         while True:
+            check_interruption()
             value = condition()
             if value:
                 return value

@@ -79,7 +79,8 @@ def rviz_view(configuration, display, directory):
     path = Path(directory) / "snapshot.rviz"
     path.write_text(configuration, encoding="utf-8")
     environment = display.environment()
-    environment["HOME"] = str(directory)  # the user's list of recent files stays as it is
+    # The user's list of recent files stays as it is.
+    environment["HOME"] = environment["XDG_RUNTIME_DIR"] = str(directory)
     command = ["rviz", "--fullscreen", "--splash-screen", "", "-d", str(path)]
     command.append("__name:=" + _NODE.strip("/"))
     with Program("RViz", command, Path(directory) / "rviz.log", environment) as program:

@@ -3,10 +3,12 @@
 import contextlib
 import signal
 import threading
-from typing import Iterator
+from typing import Iterator, List
 
 INTERRUPTED = 128 + signal.SIGINT  # exit status
 TERMINATED = 128 + signal.SIGTERM
+
+_pending: List[type] = []
 
 
 class Terminated(KeyboardInterrupt):
@@ -18,15 +20,28 @@ def exit_status(interrupt: KeyboardInterrupt) -> int:
     return TERMINATED if isinstance(interrupt, Terminated) else INTERRUPTED
 
 
+def check_interruption() -> None:
+    """Raise again what was raised when the process was asked to end.
+
+    Libraries that catch everything would keep it from the command.
+    """
+    if _pending:
+        raise _pending[-1]
+
+
 @contextlib.contextmanager
-def terminate_as_interrupt() -> Iterator[None]:
+def interruptible() -> Iterator[None]:
     """SIGTERM (a batch system's or timeout's) ends the command as Ctrl-C does."""
 
     def interrupt(number, frame):
-        raise Terminated
+        _pending.append(Terminated if number == signal.SIGTERM else KeyboardInterrupt)
+        check_interruption()
 
-    with _signal_handler(signal.SIGTERM, interrupt):
-        yield
+    with _signal_handler(signal.SIGINT, interrupt), _signal_handler(signal.SIGTERM, interrupt):
+        try:
+            yield
+        finally:
+            _pending.clear()
 
 
 @contextlib.contextmanager
