@@ -76,7 +76,7 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
   }
   if (!poses_.fresh(ros::Time::now())) {
     warn("is lost: no pose on " + subscriber_.getTopic() + " newer than " + seconds(timeout_) +
-                                 "; no states until it comes");
+         "; no states until it comes");
     return false;
   }
   return poses_.distanceFrom(present.position) < kCaughtUp;
@@ -85,8 +85,8 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
 pbd::Twist AgentLink::commanded() const {
   const std::vector<std::string> senders = presentSenders();
   if (senders.size() > 1) {
-    warn("stands still: " + std::to_string(senders.size()) + " nodes send commands on " +
-                                       subscriber_.getTopic() + ", " + joined(senders) + "; leave one of them");
+    warn("stands still: " + std::to_string(senders.size()) + " nodes send commands on " + subscriber_.getTopic() +
+         ", " + joined(senders) + "; leave one of them");
     return pbd::Twist();
   }
   if (lockstep_) {

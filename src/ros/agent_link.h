@@ -62,7 +62,7 @@ class AgentLink {
   CommandInbox commands_;
   PoseInbox poses_;
   ros::Time newest_state_;
-  std::map<std::string, ros::SteadyTime> senders_;  // of commands, and when they were heard last
+  std::map<std::string, ros::SteadyTime> senders_;              // of commands, and when they were heard last
   mutable std::map<std::string, ros::SteadyTime> quiet_until_;  // for each warning, numbers apart
   ros::Publisher pose_publisher_, wrench_publisher_;
   ros::Subscriber subscriber_;

@@ -37,8 +37,7 @@ pbd::Twist CommandInbox::command(const ros::Time& now, double timeout) const {
 }
 
 bool CommandInbox::timedOut(const ros::Time& now, double timeout) const {
-  return received_ &&
-         ((now - stamp_).toSec() > timeout || (ros::SteadyTime::now() - received_at_).toSec() > timeout);
+  return received_ && ((now - stamp_).toSec() > timeout || (ros::SteadyTime::now() - received_at_).toSec() > timeout);
 }
 
 }  // namespace deformable_manipulation

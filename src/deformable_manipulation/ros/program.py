@@ -19,6 +19,10 @@ class ProgramError(RuntimeError):
     """A program that was started does not do what it was started for."""
 
 
+class ProgramCrashed(ProgramError):
+    """A program was ended by a signal that nobody here sent."""
+
+
 class Program:
     """A running program; as a context manager it is ended on leaving.
 
@@ -54,16 +58,20 @@ class Program:
                 raise ProgramError(f"{name} cannot be started: {error}") from error
 
     def check(self):
-        """Raise ProgramError if the program has ended by itself."""
-        if self._process.poll() is not None:
-            raise self.error(f"{self.name} ended with exit status {self._process.returncode}")
+        """Raise ProgramError, or ProgramCrashed, if the program has ended by itself."""
+        status = self._process.poll()
+        if status is None:
+            return
+        if status < 0:
+            raise self.error(f"{self.name} was ended by signal {-status}", ProgramCrashed)
+        raise self.error(f"{self.name} ended with exit status {status}")
 
-    def error(self, message):
-        """A ProgramError with the end of what the program printed."""
+    def error(self, message, kind=ProgramError):
+        """A ProgramError, or another kind of it, with the end of what the program printed."""
         with open(str(self._log), errors="replace") as log:
             lines = _COLORS.sub("", log.read()).strip().splitlines()[-_LOG_LINES:]
         printed = "\n  ".join([f"The last that {self.name} printed:"] + lines)
-        return ProgramError(f"{message}.\n{printed}" if lines else f"{message}.")
+        return kind(f"{message}.\n{printed}" if lines else f"{message}.")
 
     def wait_until(self, condition, timeout, complaint):
         """Wait until ``condition()`` is true; its value.

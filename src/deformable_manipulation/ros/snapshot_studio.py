@@ -1,15 +1,19 @@
 """A run and a virtual display, to take pictures of one on the other."""
 
 import contextlib
+import sys
 from pathlib import Path
 
 import rospy
 
 from deformable_manipulation.ros.picture import PictureAtRest
 from deformable_manipulation.ros.private_master import private_master
+from deformable_manipulation.ros.program import ProgramCrashed
 from deformable_manipulation.ros.rviz_view import rviz_view
 from deformable_manipulation.ros.stepped_run import MarkerWatch, stepped_run
 from deformable_manipulation.ros.virtual_display import virtual_display
+
+_CRASHES = 2  # RViz corrupts its memory now and then while it starts
 
 
 @contextlib.contextmanager
@@ -60,6 +64,14 @@ class SnapshotStudio:
         Raises:
             ProgramError: RViz ended, or the scene was not shown within ``timeout`` [s].
         """
+        for _ in range(_CRASHES):
+            try:
+                return self._take(timeout)
+            except ProgramCrashed as crash:
+                print(f"{crash}\nTrying once more.", file=sys.stderr)
+        return self._take(timeout)
+
+    def _take(self, timeout):
         with rviz_view(self._configuration, self._display, self._directory) as view:
             topic = MarkerWatch.topic
             publishers = view.program.wait_until(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from deformable_manipulation.ros.program import Program, ProgramError
+from deformable_manipulation.ros.program import Program, ProgramCrashed, ProgramError
 
 DEADLINE = 30.0  # s, for what takes a fraction of it
 
@@ -48,6 +48,12 @@ def test_a_program_that_ends_by_itself_is_told_with_its_last_words(tmp_path):
         "The last that trial printed:",
         "  no such thing",
     ]
+
+
+def test_a_crash_is_told_from_an_end(tmp_path):
+    with shell(tmp_path, "kill -ABRT $$") as program:
+        with pytest.raises(ProgramCrashed, match="trial was ended by signal 6"):
+            program.wait_until(lambda: False, DEADLINE, "")
 
 
 def test_waiting_ends_with_a_complaint(tmp_path):
