@@ -3,8 +3,9 @@
 import argparse
 import sys
 from itertools import combinations
-from typing import Iterator, Optional, Sequence, Tuple
+from typing import Iterator, Optional, Sequence
 
+from deformable_manipulation.commands.arguments import add_scenario_arguments
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
@@ -46,33 +47,13 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "scenario", metavar="FILE", help="scenario file, or the name of one in config/scenarios"
-    )
+    add_scenario_arguments(parser)
     parser.add_argument(
         "--resolved",
         action="store_true",
         help="print the scenario as YAML, with everything filled in, and nothing else",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the file; list items by index; may be given several times",
-    )
     return parser
-
-
-def override(text: str) -> Tuple[str, str]:
-    """Split ``key.path=value``; raises argparse.ArgumentTypeError where it is not of that form."""
-    key, sign, value = text.partition("=")
-    if not key or not sign:
-        raise argparse.ArgumentTypeError(
-            "'{}' is not of the form key.path=value, as in controller.gain=2".format(text)
-        )
-    return key.strip(), value
 
 
 def summary(scenario: Scenario) -> Iterator[str]:

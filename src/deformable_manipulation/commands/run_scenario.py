@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import Optional, Sequence
 
-from deformable_manipulation.commands.check_scenario import override
+from deformable_manipulation.commands.arguments import add_scenario_arguments
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible, interrupts_ignored
 from deformable_manipulation.recording import RecordingError, RunRecorder
@@ -50,7 +50,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("scenario", help="YAML file, or the name of a scenario of this package")
+    add_scenario_arguments(parser)
     parser.add_argument(
         "--output", metavar="DIR", help="folder of the run (default: output/<scenario>_<time>)"
     )
@@ -59,14 +59,6 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         dest="safety",
         action="store_false",
         help="switch the safety filter off: follow the leader whatever is in the way",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the scenario; can be given several times",
     )
     parser.add_argument(
         "--force", action="store_true", help="overwrite the run in the output folder"

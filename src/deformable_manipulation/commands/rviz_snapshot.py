@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.check_scenario import override
+from deformable_manipulation.commands.arguments import add_scenario_arguments
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.scenario import (
@@ -73,7 +73,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("scenario", help="YAML file, or the name of a scenario of this package")
+    add_scenario_arguments(parser)
     parser.add_argument(
         "--times",
         type=times_of,
@@ -97,14 +97,6 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         type=Path,
         help="RViz configuration (default: that of the scenario, "
         f"or of {DEFAULT_CONFIGURATION} where it has none)",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the scenario; can be given several times",
     )
     parser.add_argument(
         "--timeout",

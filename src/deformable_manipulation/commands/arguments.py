@@ -1,0 +1,29 @@
+"""Arguments that several commands have in common."""
+
+import argparse
+from typing import Tuple
+
+
+def add_scenario_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the scenario, and ``--set`` to replace values of it."""
+    parser.add_argument(
+        "scenario", help="scenario file (YAML), or the name of a scenario of this package"
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY.PATH=VALUE",
+        type=override,
+        action="append",
+        default=[],
+        help="replace a value of the scenario; list items by index; can be given several times",
+    )
+
+
+def override(text: str) -> Tuple[str, str]:
+    """Split ``key.path=value``; raises argparse.ArgumentTypeError where it is not of that form."""
+    key, sign, value = text.partition("=")
+    if not key or not sign:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not of the form key.path=value, as in controller.gain=2"
+        )
+    return key.strip(), value
