@@ -255,6 +255,19 @@ void Rod::substep() {
   }
 }
 
+double Rod::stretch() const {
+  const double l = parameters_.segmentLength();
+  double length = l;
+  for (int i = 1; i < parameters_.segments; ++i) {
+    const Pose before = pose(i - 1);
+    const Pose after = pose(i);
+    const Vector3 gap = (after.position - 0.5 * l * tangent(after.orientation)) -
+                        (before.position + 0.5 * l * tangent(before.orientation));
+    length += l + gap.norm();
+  }
+  return length / parameters_.length - 1.0;
+}
+
 Wrench Rod::wrench(int particle) const {
   held(particle);
   const RodLanes& lanes = state_->groups[0];

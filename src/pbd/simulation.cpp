@@ -12,6 +12,9 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
+// An object that did not settle because it swings is a start; one that has come apart is none.
+constexpr double kLargestStretch = 0.05;
+
 void requireAgents(const Body& body, const std::vector<Agent>& agents, ParameterCheck& check) {
   check.require(!agents.empty(), "agents", "none", "at least one agent");
   std::set<int> particles;
@@ -55,6 +58,10 @@ Simulation::Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents,
     addPerturbation(perturbation);
   }
   settle();
+  check.require(settled_ || std::abs(body_->stretch()) < kLargestStretch, "simulation.time_step", clock_.time_step,
+                "small enough for the object to settle: it is " + std::to_string(100.0 * body_->stretch()) +
+                    " % too long after a minute; a smaller time step, more substeps or a softer material helps");
+  check.throwIfAny();
   start_body_ = body_->clone();
   start_states_ = states_;
 }

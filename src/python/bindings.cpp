@@ -273,8 +273,10 @@ void bindBody(py::module_& module) {
 }
 
 void bindSimulation(py::module_& module) {
-  py::class_<Simulation>(module, "Simulation",
-                         "A body carried by A velocity-controlled agents, with perturbed copies; settled at the start.")
+  py::class_<Simulation>(
+      module, "Simulation",
+      "A body carried by A velocity-controlled agents, with perturbed copies; settled at the start.\n\n"
+      "Not to be used by several threads at a time.")
       .def(py::init(&makeSimulation), py::arg("body"), py::arg("agents"), py::arg("perturbations"),
            py::arg("time_step"), py::arg("substeps"), py::arg("steps_per_cycle") = 1,
            "body is copied. agents: list of (name, particle, 'clamped' or 'pinned', position (3,) [m], orientation\n"
@@ -321,7 +323,9 @@ void bindSimulation(py::module_& module) {
             return particles;
           },
           "The particle that each agent holds, or -1.")
-      .def_property_readonly("body", &Simulation::body, py::return_value_policy::reference_internal)
+      .def_property_readonly(
+          "body", [](const Simulation& simulation) { return simulation.body().clone(); },
+          "The object as it is now, as an independent copy.")
       .def_property_readonly("settled", &Simulation::settled, "False if settling was given up.")
       .def_property_readonly("cycle", &Simulation::cycle)
       .def_property_readonly("reset_count", &Simulation::resetCount)

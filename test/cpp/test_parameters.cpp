@@ -142,6 +142,18 @@ TEST(Simulation, keepsAChangedMaterialOverAReset) {
   EXPECT_GT(positions(simulation.body())[27].z(), soft + 0.5);
 }
 
+TEST(Simulation, isRefusedWhenTheObjectComesApart) {
+  const RodParameters p = rope();
+  Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
+  Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
+  try {
+    Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {}, Clock{0.1, 2, 1});
+    FAIL() << "no exception";
+  } catch (const ParameterError& error) {
+    EXPECT_EQ(keysOf(error), (std::vector<std::string>{"simulation.time_step"}));
+  }
+}
+
 }  // namespace
 }  // namespace pbd
 }  // namespace deformable_manipulation

@@ -60,6 +60,9 @@ class Body {
   //! [kg]
   virtual double mass() const = 0;
 
+  //! Relative error of the length (or size) of the object itself against the unstretched one.
+  virtual double stretch() const = 0;
+
   //! Changes the material while running; shape and motion stay.
   //! @throw ParameterError with every parameter that the object does not have or that is out of range;
   //! nothing changes then.

@@ -29,6 +29,7 @@ class Rod final : public Body {
   int pointCount() const override { return parameters_.segments + 1; }
   double freeLength(int particle, int other) const override;
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
+  double stretch() const override;
   Wrench wrench(int particle) const override;
   void layOut() override;
   void points(double* to) const override;

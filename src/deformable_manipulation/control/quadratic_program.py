@@ -6,7 +6,11 @@ A solver is called with P (n, n), q (n,), A (m, n), b (m,) and returns the x (n,
 
 from functools import partial
 
+import numpy as np
 import qpsolvers
+
+# Different for each constraint, far below the safety filter's tolerance.
+_LOOSENED = 1e-11 * (1.0 + np.modf(0.618033988749895 * np.arange(4096))[0])
 
 
 def find_solver(name):
@@ -31,9 +35,13 @@ def find_solver(name):
 
 
 def _solve_with_quadprog(solve_qp, P, q, A, b):
-    """Solve with quadprog's dual active-set method (Goldfarb and Idnani, 1983)."""
+    """Solve with quadprog's dual active-set method (Goldfarb and Idnani, 1983).
+
+    It has no limit of its iterations and can go round for ever where several constraints meet in
+    one point; loosening each by another minute amount keeps them from doing so.
+    """
     try:
-        return solve_qp(P, -q, A.T, b, 0)[0]
+        return solve_qp(P, -q, A.T, b - _LOOSENED[: len(b)], 0)[0]
     except ValueError:  # constraints are inconsistent, or P is not positive definite
         return None
 

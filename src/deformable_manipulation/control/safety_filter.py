@@ -61,7 +61,7 @@ class SafetyFilter:
         gamma = np.asarray(weights, dtype=float)
         if gamma.shape != (3,) or not (np.isfinite(gamma).all() and (gamma > 0.0).all()):
             raise ValueError(f"controller.weights: {weights}, allowed are three positive numbers")
-        self._squares = gamma**2
+        self._squares = (gamma / gamma.max()) ** 2  # only their ratios matter
         self._hessian = np.diag(self._squares)
         self._relaxed_hessian = np.diag(np.append(self._squares, np.full(3, self._squares.max())))
         self._solve = find_solver(solver)

@@ -15,6 +15,7 @@ from deformable_manipulation.scenario.spec import (
     SimulationSpec,
 )
 
+_WEIGHT_RATIO = 1e-2
 _TIME_TOLERANCE = 1e-6  # relative; a time step is typed with a few digits
 _LENGTH_TOLERANCE = 1e-9  # relative; starts on the undeformed object are a free length apart
 
@@ -45,6 +46,13 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
                 "it or raise the rate".format(rate),
                 show(list(values) if len(values) > 1 else values[0]),
             )
+    if min(controller.weights) < _WEIGHT_RATIO * max(controller.weights):
+        report.add(
+            ("controller", "weights"),
+            "must not be more than a factor of {:g} apart, or the quadratic program cannot be "
+            "solved reliably".format(1.0 / _WEIGHT_RATIO),
+            show(list(controller.weights)),
+        )
     if controller.timeout * rate < 1.0:
         report.add(
             ("controller", "timeout"),

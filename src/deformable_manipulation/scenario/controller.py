@@ -59,7 +59,7 @@ PROXIMITY = Section(
 CONTROLLER = Section(
     ControllerSpec,
     {
-        "rate": Number("Hz", above=0.0, at_most=10000.0),
+        "rate": Number("Hz", at_least=0.1, at_most=10000.0),
         "gain": Number("1/s", above=0.0),
         "weights": vector("1", above=0.0),
         "max_velocity": Number("m/s", above=0.0),

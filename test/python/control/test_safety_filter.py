@@ -290,3 +290,30 @@ def test_unknown_solver_names_those_installed():
 def test_weights_have_to_be_positive(weights):
     with pytest.raises(ValueError, match="controller.weights"):
         SafetyFilter(weights)
+
+
+@pytest.mark.parametrize("scale", [1e-100, 1e-4, 1e4, 1e100])
+def test_only_the_ratios_of_the_weights_matter(scale):
+    generator = np.random.default_rng(7)
+    for _ in range(20):
+        nominal, parts = random_problem(generator, 0.3)
+        wanted = SafetyFilter((1.0, 2.0, 3.0)).filter(nominal, parts, LOWER, UPPER)
+        scaled = SafetyFilter((scale, 2.0 * scale, 3.0 * scale)).filter(
+            nominal, parts, LOWER, UPPER
+        )
+        assert scaled.status == wanted.status
+        np.testing.assert_allclose(scaled.velocity, wanted.velocity, atol=1e-9)
+
+
+def test_constraints_that_meet_in_one_point_do_not_go_round_for_ever():
+    generator = np.random.default_rng(3)
+    values = np.array([0.0, 0.0, 1.0, -1.0, 1e3, -1e3, 1e-3, 0.5, 2.0, 1e-6])
+    safety_filter = SafetyFilter(np.ones(3))
+    for _ in range(1000):
+        parts = [
+            rows(Tier(generator.integers(3)), generator.choice(values, 3), generator.choice(values))
+            for _ in range(generator.integers(13))
+        ]
+        upper = generator.choice([0.0, 1e-9, 0.01, LIMIT], 3)
+        result = safety_filter.filter(generator.choice(values, 3), parts, -upper, upper)
+        assert (np.abs(result.velocity) <= upper).all()
