@@ -1,0 +1,105 @@
+#include "deformable_manipulation/distance/minimum_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace deformable_manipulation {
+namespace distance {
+namespace {
+
+constexpr double kRounding = 1e-12;  // m
+
+void requireLength(const char* name, double value) {
+  if (!std::isfinite(value) || value < 0.0) {
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
+                                "; it must be a finite number of metres, 0 or more");
+  }
+}
+
+void requireGeometry(const ObjectView& object) {
+  if (object.copies < 1 || object.point_count < 2) {
+    throw std::invalid_argument("an object must have at least one copy and two points");
+  }
+  const long numbers = 3L * object.copies * object.point_count;
+  const double* end = object.points + numbers;
+  const double* found = std::find_if(object.points, end, [](double value) { return !std::isfinite(value); });
+  if (found != end) {
+    const long point = (found - object.points) / 3;
+    throw std::invalid_argument("point " + std::to_string(point % object.point_count) + " of copy " +
+                                std::to_string(point / object.point_count) + " is not finite");
+  }
+  for (int t = 0; t < object.triangle_count; ++t) {
+    for (int vertex : object.triangles[t]) {
+      if (vertex < 0 || vertex >= object.point_count) {
+        throw std::invalid_argument("triangle " + std::to_string(t) + " refers to point " + std::to_string(vertex) +
+                                    "; there are points 0 to " + std::to_string(object.point_count - 1));
+      }
+    }
+  }
+}
+
+bool nearer(const Feature& a, const Feature& b) { return a.distance < b.distance; }
+
+}  // namespace
+
+MinimumDistance::MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band,
+                                 Selection selection)
+    : obstacles_(std::move(obstacles)), margin_(margin), band_(band), selection_(selection) {
+  requireLength("margin", margin);
+  requireLength("band", band);
+}
+
+const Distances& MinimumDistance::compute(const ObjectView& object) {
+  requireGeometry(object);
+  nearest_.assign(object.copies, Feature());
+  of_one_.resize(object.copies);
+  for (Feature& feature : nearest_) {
+    feature.distance = std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    obstacles_[i]->minima(object, of_one_.data());
+    for (int copy = 0; copy < object.copies; ++copy) {
+      of_one_[copy].obstacle = static_cast<int>(i);
+      if (nearer(of_one_[copy], nearest_[copy])) {
+        nearest_[copy] = of_one_[copy];
+      }
+    }
+  }
+
+  result_.features.clear();
+  result_.offsets.assign(1, 0);
+  result_.minimum.clear();
+  for (int copy = 0; copy < object.copies; ++copy) {
+    if (copy == 0) {
+      addFeatures(object);
+    } else if (!obstacles_.empty()) {
+      result_.features.push_back(nearest_[copy]);
+    }
+    result_.minimum.push_back(nearest_[copy].distance - margin_);
+    result_.offsets.push_back(static_cast<int>(result_.features.size()));
+  }
+  for (Feature& feature : result_.features) {
+    feature.distance -= margin_;
+  }
+  return result_;
+}
+
+void MinimumDistance::addFeatures(const ObjectView& object) {
+  std::vector<Feature>& features = result_.features;
+  const double limit = nearest_[0].distance + band_ + kRounding;
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    const std::size_t first = features.size();
+    obstacles_[i]->features(object, selection_, limit, &features);
+    for (std::size_t k = first; k < features.size(); ++k) {
+      features[k].obstacle = static_cast<int>(i);
+    }
+  }
+  std::stable_sort(features.begin(), features.end(), nearer);
+}
+
+}  // namespace distance
+}  // namespace deformable_manipulation
