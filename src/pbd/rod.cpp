@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "deformable_manipulation/pbd/rod_equilibrium.h"
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
@@ -62,6 +63,7 @@ struct Rod::State {
   std::vector<HeldSegment> held;
   AlignedArray workspace;
   RodSubstepInput input;
+  RodEquilibrium equilibrium;
 
   //! Points the kernel's input at this state's arrays.
   void connect() {
@@ -290,6 +292,15 @@ Wrench Rod::wrench(int particle) const {
     wrench.torque += half * d.cross(force) + (side == 0 ? -1.0 : 1.0) * bent;
   }
   return wrench;
+}
+
+ResponseStatus Rod::response(double* to) {
+  RodEquilibrium& equilibrium = state_->equilibrium;
+  equilibrium.update(*this, 1);
+  if (equilibrium.status(0) == ResponseStatus::VALID) {
+    equilibrium.response(0, to);
+  }
+  return equilibrium.status(0);
 }
 
 void Rod::points(double* to) const {

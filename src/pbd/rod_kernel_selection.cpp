@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "rod_equilibrium_kernel.h"
 #include "rod_kernel.h"
 
 namespace deformable_manipulation {
@@ -48,6 +49,19 @@ std::vector<RodKernel> availableRodKernels() {
 const RodKernel& selectedRodKernel() {
   static const RodKernel kernel = select();
   return kernel;
+}
+
+RodEquilibriumKernel selectedRodEquilibriumKernel() {
+#ifdef DEFORMABLE_MANIPULATION_X86_KERNELS
+  const std::string instruction_set = selectedRodKernel().instruction_set;
+  if (instruction_set == "avx512") {
+    return avx512::rodEquilibriumKernel();
+  }
+  if (instruction_set == "avx2") {
+    return avx2::rodEquilibriumKernel();
+  }
+#endif
+  return portable::rodEquilibriumKernel();
 }
 
 }  // namespace pbd

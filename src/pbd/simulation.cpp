@@ -192,5 +192,19 @@ Wrench Simulation::wrench(int agent) const {
   return particle >= 0 ? body_->wrench(particle) : Wrench();
 }
 
+ResponseStatus Simulation::response(double* to) {
+  const std::size_t numbers = 9 * static_cast<std::size_t>(body_->pointCount());
+  const std::vector<HeldPoint>& holds = body_->holds();
+  response_.resize(numbers * holds.size());
+  const ResponseStatus status = body_->response(response_.data());
+  if (status == ResponseStatus::VALID) {
+    std::fill_n(to, numbers * agents_.size(), 0.0);
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      std::copy_n(&response_[numbers * i], numbers, to + numbers * agentOf(holds[i].particle));
+    }
+  }
+  return status;
+}
+
 }  // namespace pbd
 }  // namespace deformable_manipulation

@@ -15,6 +15,7 @@
 
 #include "deformable_manipulation/pbd/errors.h"
 #include "deformable_manipulation/pbd/rod.h"
+#include "deformable_manipulation/pbd/rod_equilibrium.h"
 #include "deformable_manipulation/pbd/simulation.h"
 
 namespace py = pybind11;
@@ -272,6 +273,76 @@ void bindBody(py::module_& module) {
            py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
+void requireCopy(const RodEquilibrium& equilibrium, int copy) {
+  if (copy < 0 || copy >= equilibrium.copyCount()) {
+    throw py::index_error("the equilibria of " + std::to_string(equilibrium.copyCount()) + " copies are known");
+  }
+}
+
+//! An equilibrium with the sizes of the rod that it was found for.
+struct BoundEquilibrium {
+  RodEquilibrium equilibrium;
+  int holds = 0;
+  int points = 0;
+
+  void update(const Rod& rod, int copies, double tolerance, int iterations) {
+    if (copies < 1 || copies > rod.copyCount()) {
+      throw py::value_error("copies is " + std::to_string(copies) + "; it must be 1 to " +
+                            std::to_string(rod.copyCount()));
+    }
+    holds = static_cast<int>(rod.holds().size());
+    points = rod.pointCount();
+    equilibrium.update(rod, copies, {tolerance, iterations});
+  }
+};
+
+void bindEquilibrium(py::module_& module) {
+  py::class_<BoundEquilibrium>(
+      module, "RodEquilibrium",
+      "The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with respect to\n"
+      "each held point by implicit differentiation. Each update starts from the last one.")
+      .def(py::init<>())
+      .def("update", &BoundEquilibrium::update, py::arg("rod"), py::arg("copies") = 1, py::arg("tolerance") = 1e-7,
+           py::arg("iterations") = 20, py::call_guard<py::gil_scoped_release>(),
+           "Finds the equilibria of the first copies at their present holds. tolerance: of the last Newton step,\n"
+           "turns [rad] and relative forces.")
+      .def_property_readonly(
+          "iterations", [](const BoundEquilibrium& e) { return e.equilibrium.iterations(); },
+          "Newton steps of the last update.")
+      .def(
+          "valid",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            return e.equilibrium.status(copy) == ResponseStatus::VALID;
+          },
+          py::arg("copy") = 0, "Whether the equilibrium of a copy was found.")
+      .def(
+          "status",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            return describe(e.equilibrium.status(copy));
+          },
+          py::arg("copy") = 0, "'valid', or why the equilibrium of a copy is not known.")
+      .def(
+          "points",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            Array array({e.points, 3});
+            e.equilibrium.points(copy, array.mutable_data());
+            return array;
+          },
+          py::arg("copy") = 0, "Points (P, 3) [m] of a copy in equilibrium.")
+      .def(
+          "response",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            Array array({e.holds, e.points, 3, 3});
+            e.equilibrium.response(copy, array.mutable_data());
+            return array;
+          },
+          py::arg("copy") = 0, "d point / d held point, (H, P, 3, 3), holds in the order of their particles.");
+}
+
 void bindSimulation(py::module_& module) {
   py::class_<Simulation>(
       module, "Simulation",
@@ -348,6 +419,15 @@ void bindSimulation(py::module_& module) {
           "wrench", [](const Simulation& s, int agent) { return toPair(s.wrench(agent)); }, py::arg("agent"),
           "Force (3,) [N] and torque (3,) [N m] that the object exerts on an agent.")
       .def(
+          "response",
+          [](Simulation& s) -> py::object {
+            Array array({static_cast<int>(s.agents().size()), s.body().pointCount(), 3, 3});
+            const ResponseStatus status = s.response(array.mutable_data());
+            return status == ResponseStatus::VALID ? py::object(array) : py::object(py::str(describe(status)));
+          },
+          "Exact derivatives (A, P, 3, 3) of the settled object's points with respect to each agent's held point, or,\n"
+          "where they are not known, a clause (str) that says why.")
+      .def(
           "displaced_agents",
           [](const Simulation& s) {
             py::array_t<int> agents(s.body().copyCount());
@@ -389,5 +469,6 @@ PYBIND11_MODULE(_pbd, module) {
   module.doc() = "Position-based dynamics of deformable objects and their perturbed copies (C++ core).";
   bindErrors(module);
   bindBody(module);
+  bindEquilibrium(module);
   bindSimulation(module);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "deformable_manipulation/pbd/response.h"
 #include "deformable_manipulation/pbd/types.h"
 
 namespace deformable_manipulation {
@@ -100,6 +101,11 @@ class Body {
   //! @throw std::invalid_argument if the particle is not held.
   virtual Wrench wrench(int particle) const = 0;
 
+  //! Quasi-static response: the exact derivative of the points of the object itself, in the equilibrium
+  //! between its holds, with respect to each held point. Starts from what the last call found.
+  //! @param to [holds x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
+  virtual ResponseStatus response(double* to);
+
   // Copies -------------------------------------------------------------------------------------
 
   //! Adds a copy; it starts as the object is now and moves to its displacement.
@@ -115,6 +121,9 @@ class Body {
 
   //! Copy 0 and the perturbed copies.
   int copyCount() const { return static_cast<int>(copies_.size()) + 1; }
+
+  //! Where the held point of a copy is.
+  Vector3 heldPosition(const HeldPoint& held, int copy) const;
 
   // Time ---------------------------------------------------------------------------------------
 
@@ -175,9 +184,6 @@ class Body {
 
   //! Takes all velocities away.
   virtual void stop() = 0;
-
-  //! Where the held point of a copy is.
-  Vector3 heldPosition(const HeldPoint& held, int copy) const;
 
   void requireParticle(int particle) const;
 

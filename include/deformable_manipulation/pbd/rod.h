@@ -31,6 +31,7 @@ class Rod final : public Body {
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
   double stretch() const override;
   Wrench wrench(int particle) const override;
+  ResponseStatus response(double* to) override;
   void layOut() override;
   void points(double* to) const override;
   Pose pose(int particle) const override;

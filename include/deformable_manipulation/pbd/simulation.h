@@ -105,6 +105,10 @@ class Simulation {
   //! What the object exerts on an agent; nothing if it holds none. @throw std::out_of_range
   Wrench wrench(int agent) const;
 
+  //! Quasi-static response of the object itself: see Body::response(). Zero for agents that hold nothing.
+  //! @param to [agents x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
+  ResponseStatus response(double* to);
+
   long cycle() const { return cycle_; }
   int resetCount() const { return reset_count_; }
   double time() const { return cycle_ * clock_.cycleTime(); }  //!< [s] since the start
@@ -129,6 +133,7 @@ class Simulation {
   std::vector<AgentState> states_;
   std::unique_ptr<Body> start_body_;  // as settled
   std::vector<AgentState> start_states_;
+  std::vector<double> response_;   // of the holds, in the body's order
   bool material_changed_ = false;  // since start_body_ was settled
   bool settled_ = false;
   long cycle_ = 0;

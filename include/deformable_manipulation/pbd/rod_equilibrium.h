@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "deformable_manipulation/pbd/response.h"
+#include "deformable_manipulation/pbd/rod.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! When a search for an equilibrium ends.
+struct EquilibriumOptions {
+  double tolerance = 1e-7;  //!< of the last step, turns [rad] and relative forces; the error left is about its square
+  int iterations = 20;      //!< at most, per start
+};
+
+//! The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with
+//! respect to each held point by implicit differentiation (docs/mathematics.md).
+//!
+//! It is the equilibrium of the very rigid segments and joints that the simulation advances, so a
+//! rod at rest is in it. Each search starts from the last equilibrium found, the first one, and one after
+//! a failure, from the rod's present shape.
+class RodEquilibrium {
+ public:
+  RodEquilibrium();
+  RodEquilibrium(const RodEquilibrium& other);
+  RodEquilibrium& operator=(const RodEquilibrium& other);
+  ~RodEquilibrium();
+
+  //! Finds the equilibria of the first `copies` copies at their present held points.
+  void update(const Rod& rod, int copies, const EquilibriumOptions& options = EquilibriumOptions());
+
+  int copyCount() const;
+  ResponseStatus status(int copy) const;
+
+  //! Newton steps of the last update.
+  int iterations() const;
+
+  //! Points of a copy in equilibrium, [pointCount x 3] m. @throw std::logic_error unless VALID
+  void points(int copy, double* to) const;
+
+  //! Derivatives of a copy's points with respect to its held points, [holds x pointCount x 3 x 3].
+  //! @throw std::logic_error unless VALID
+  void response(int copy, double* to) const;
+
+ private:
+  void requireValid(int copy) const;
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

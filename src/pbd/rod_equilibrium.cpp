@@ -1,0 +1,346 @@
+#include "deformable_manipulation/pbd/rod_equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "rod_equilibrium_kernel.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+// Rotation about the own axis costs nothing where no hold is clamped. This fraction of a joint's
+// torsional stiffness makes the matrix regular and leaves the equilibrium where it is.
+constexpr double kSpinFraction = 1e-7;
+
+// A slack rod's points move at most a few times as fast as its holds. Much more: it swings freely.
+constexpr double kLargestResponse = 1e3;
+
+constexpr double kReach = 1.0 - 1e-9;         // of the free length, where the rod does not stretch
+constexpr double kFarFromEquilibrium = 0.05;  // of the rod's length
+
+bool sameHolds(const std::vector<HeldPoint>& a, const std::vector<HeldPoint>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HeldPoint& x, const HeldPoint& y) {
+    return x.particle == y.particle && x.type == y.type;
+  });
+}
+
+}  // namespace
+
+RodEquilibriumLanes::RodEquilibriumLanes(int segments, int spans, int holds)
+    : orientation(4 * kLanes * segments),
+      force(3 * kLanes * spans),
+      reach(3 * kLanes * spans),
+      response(9 * kLanes * holds * (segments + 1)),
+      change(kLanes),
+      unstable(kLanes),
+      tangent(3 * kLanes * segments),
+      inverse_pivot(6 * kLanes * segments),
+      coupling(9 * kLanes * segments),
+      correction(3 * kLanes * segments),
+      force_response(9 * kLanes * segments * spans),
+      closure(kLanes * 3 * spans * (6 * spans + 1)) {}
+
+struct RodEquilibrium::State {
+  RodParameters parameters;
+  std::vector<HeldPoint> holds;
+  std::vector<unsigned char> clamped;
+  std::vector<int> span_of_joint;
+  std::vector<RodSpan> spans;
+  std::vector<int> held;
+  RodEquilibriumInput input;
+
+  std::vector<RodEquilibriumLanes> groups;
+  std::vector<ResponseStatus> status;   // of each copy
+  std::vector<Vector3> first_position;  // of each copy's first held segment
+  std::vector<double> shape, present;   // points of a copy, found and simulated
+  int iterations = 0;
+
+  void configure(const Rod& rod);
+  void describeMaterial();
+  void describeHolds();
+  void connect();
+  void hold(const Rod& rod, int slot, int copy);
+  void startFrom(const Rod& rod, int slot, int copy);
+  void search(int group, const EquilibriumOptions& options);
+  ResponseStatus judge(const Rod& rod, int copy, const EquilibriumOptions& options);
+  bool outOfReach(int copy) const;
+  bool swingsFreely(int copy) const;
+  void points(int copy, double* to) const;
+  Vector3 jointForce(int joint, int copy) const;
+
+  Vector3 vector(AlignedArray RodEquilibriumLanes::*array, int item, int copy) const {
+    const double* at = &(groups[copy / kLanes].*array)[3 * kLanes * item + copy % kLanes];
+    return {at[0], at[kLanes], at[2 * kLanes]};
+  }
+  void setVector(AlignedArray RodEquilibriumLanes::*array, int item, int slot, const Vector3& value) {
+    double* at = &(groups[slot / kLanes].*array)[3 * kLanes * item + slot % kLanes];
+    for (int axis = 0; axis < 3; ++axis) {
+      at[axis * kLanes] = value[axis];
+    }
+  }
+  void setOrientation(int segment, int slot, const double* xyzw) {
+    double* at = &groups[slot / kLanes].orientation[4 * kLanes * segment + slot % kLanes];
+    for (int i = 0; i < 4; ++i) {
+      at[i * kLanes] = xyzw[i];
+    }
+  }
+  Vector3 tangentOf(int segment, int copy) const {
+    const double* at = &groups[copy / kLanes].orientation[4 * kLanes * segment + copy % kLanes];
+    return Quaternion(at[3 * kLanes], at[0], at[kLanes], at[2 * kLanes]) * Vector3::UnitX();
+  }
+};
+
+RodEquilibrium::RodEquilibrium() : state_(new State) {}
+RodEquilibrium::RodEquilibrium(const RodEquilibrium& other) : state_(new State(*other.state_)) {}
+RodEquilibrium& RodEquilibrium::operator=(const RodEquilibrium& other) {
+  *state_ = *other.state_;
+  return *this;
+}
+RodEquilibrium::~RodEquilibrium() = default;
+
+int RodEquilibrium::copyCount() const { return static_cast<int>(state_->status.size()); }
+ResponseStatus RodEquilibrium::status(int copy) const { return state_->status.at(static_cast<std::size_t>(copy)); }
+int RodEquilibrium::iterations() const { return state_->iterations; }
+
+void RodEquilibrium::points(int copy, double* to) const {
+  requireValid(copy);
+  state_->points(copy, to);
+}
+
+void RodEquilibrium::response(int copy, double* to) const {
+  requireValid(copy);
+  const AlignedArray& from = state_->groups[copy / kLanes].response;
+  for (std::size_t i = copy % kLanes; i < from.size(); i += kLanes) {
+    *to++ = from[i];
+  }
+}
+
+void RodEquilibrium::requireValid(int copy) const {
+  if (status(copy) != ResponseStatus::VALID) {
+    throw std::logic_error("the equilibrium of copy " + std::to_string(copy) +
+                           " is not known: " + describe(status(copy)));
+  }
+}
+
+void RodEquilibrium::update(const Rod& rod, int copies, const EquilibriumOptions& options) {
+  State& s = *state_;
+  s.configure(rod);
+  s.iterations = 0;
+  s.status.resize(copies, ResponseStatus::NOT_CONVERGED);
+  s.first_position.resize(copies);
+  if (s.held.empty()) {
+    std::fill(s.status.begin(), s.status.end(), ResponseStatus::NOT_HELD);
+    return;
+  }
+  const int groups = (copies + kLanes - 1) / kLanes;
+  while (static_cast<int>(s.groups.size()) < groups) {
+    s.groups.emplace_back(s.parameters.segments, static_cast<int>(s.spans.size()), static_cast<int>(s.held.size()));
+  }
+  for (int group = 0; group < groups; ++group) {
+    const int first = group * kLanes;
+    const int last = std::min(copies, first + kLanes) - 1;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      for (int slot = first; slot < first + kLanes; ++slot) {
+        const int copy = std::min(slot, last);  // idle lanes repeat a copy, so that none computes nonsense
+        s.hold(rod, slot, copy);
+        if (s.status[copy] != ResponseStatus::VALID) {
+          s.startFrom(rod, slot, copy);
+        }
+      }
+      s.search(group, options);
+      for (int copy = first; copy <= last; ++copy) {
+        s.status[copy] = s.judge(rod, copy, options);
+      }
+      if (std::all_of(s.status.begin() + first, s.status.begin() + last + 1,
+                      [](ResponseStatus status) { return status == ResponseStatus::VALID; })) {
+        break;
+      }
+    }
+  }
+}
+
+void RodEquilibrium::State::configure(const Rod& rod) {
+  const bool same_holds = sameHolds(holds, rod.holds()) && !held.empty();
+  parameters = rod.parameters();
+  holds = rod.holds();
+  if (!same_holds) {
+    groups.clear();
+    status.clear();
+    describeHolds();
+  }
+  describeMaterial();
+  connect();
+}
+
+void RodEquilibrium::State::describeHolds() {
+  const int n = parameters.segments;
+  clamped.assign(n, 0);
+  span_of_joint.assign(n - 1, -1);
+  spans.clear();
+  held.clear();
+  for (const HeldPoint& point : holds) {
+    clamped[point.particle] = point.type == Hold::CLAMPED;
+    if (!held.empty()) {
+      std::fill(span_of_joint.begin() + held.back(), span_of_joint.begin() + point.particle,
+                static_cast<int>(spans.size()));
+      spans.push_back({held.back(), point.particle});
+    }
+    held.push_back(point.particle);
+  }
+}
+
+void RodEquilibrium::State::describeMaterial() {
+  const double l = parameters.segmentLength();
+  input.segments = parameters.segments;
+  input.segment_length = l;
+  input.bending_stiffness = parameters.bendingStiffness();
+  input.torsion_stiffness = parameters.torsionStiffness();
+  input.axial_compliance = parameters.stretch == Stretch::FROM_MODULI ? l / parameters.axialStiffness() : 0.0;
+  const Vector3 weight = parameters.segmentMass() * parameters.gravity;
+  std::copy(weight.data(), weight.data() + 3, input.weight);
+  const bool spins = std::none_of(clamped.begin(), clamped.end(), [](unsigned char is) { return is != 0; });
+  input.spin_stiffness = spins ? kSpinFraction * parameters.torsionStiffness() / l : 0.0;
+}
+
+void RodEquilibrium::State::connect() {
+  input.clamped = clamped.data();
+  input.span_of_joint = span_of_joint.data();
+  input.spans = spans.data();
+  input.span_count = static_cast<int>(spans.size());
+  input.held = held.data();
+  input.held_count = static_cast<int>(held.size());
+  shape.resize(3 * (parameters.segments + 1));
+}
+
+//! Takes over where the copy is held now.
+void RodEquilibrium::State::hold(const Rod& rod, int slot, int copy) {
+  if (slot == copy) {
+    first_position[copy] = rod.heldPosition(holds.front(), copy);
+  }
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (clamped[holds[i].particle]) {
+      setOrientation(holds[i].particle, slot, holds[i].pose.orientation.coeffs().data());
+    }
+    if (i > 0) {
+      const Vector3 reach = rod.heldPosition(holds[i], copy) - rod.heldPosition(holds[i - 1], copy);
+      setVector(&RodEquilibriumLanes::reach, static_cast<int>(i) - 1, slot, reach);
+    }
+  }
+}
+
+//! Begins the search at the simulated shape, with each span's weight shared by its ends.
+void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
+  std::vector<double> orientations(4 * parameters.segments);
+  rod.orientations(copy, orientations.data());
+  for (int i = 0; i < parameters.segments; ++i) {
+    setOrientation(i, slot, &orientations[4 * i]);
+  }
+  const Vector3 weight(input.weight[0], input.weight[1], input.weight[2]);
+  for (std::size_t span = 0; span < spans.size(); ++span) {
+    const int joints = spans[span].last - spans[span].first;
+    const Vector3 reach = vector(&RodEquilibriumLanes::reach, static_cast<int>(span), slot);
+    const Vector3 half = 0.5 * joints * weight;
+    const Vector3 pull = half.norm() / (reach.norm() + 1e-9) * reach;
+    setVector(&RodEquilibriumLanes::force, static_cast<int>(span), slot, half + pull);
+  }
+}
+
+void RodEquilibrium::State::search(int group, const EquilibriumOptions& options) {
+  const int first = group * kLanes;
+  const int copies = std::min(static_cast<int>(status.size()) - first, kLanes);
+  const RodEquilibriumKernel kernel = selectedRodEquilibriumKernel();
+  RodEquilibriumLanes& lanes = groups[group];
+  for (int i = 0; i < options.iterations; ++i) {
+    kernel.step(input, lanes, copies);
+    iterations = std::max(iterations, i + 1);
+    const auto moves = [&](double change) { return !(change < options.tolerance) && std::isfinite(change); };
+    if (std::none_of(lanes.change.begin(), lanes.change.begin() + copies, moves)) {
+      break;
+    }
+  }
+  kernel.respond(input, lanes, copies);
+}
+
+ResponseStatus RodEquilibrium::State::judge(const Rod& rod, int copy, const EquilibriumOptions& options) {
+  const RodEquilibriumLanes& lanes = groups[copy / kLanes];
+  if (outOfReach(copy)) {
+    return ResponseStatus::OUT_OF_REACH;
+  }
+  if (!(lanes.change[copy % kLanes] < options.tolerance)) {
+    return ResponseStatus::NOT_CONVERGED;
+  }
+  if (lanes.unstable[copy % kLanes] != 0.0 || swingsFreely(copy)) {
+    return ResponseStatus::UNSTABLE;
+  }
+  points(copy, shape.data());
+  present.resize(shape.size() * rod.copyCount());
+  rod.points(present.data());
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    farthest = std::max(farthest, std::abs(shape[i] - present[copy * shape.size() + i]));
+  }
+  return farthest < kFarFromEquilibrium * parameters.length ? ResponseStatus::VALID : ResponseStatus::OTHER_SHAPE;
+}
+
+bool RodEquilibrium::State::outOfReach(int copy) const {
+  if (input.axial_compliance > 0.0) {
+    return false;
+  }
+  for (std::size_t span = 0; span < spans.size(); ++span) {
+    const double longest = (spans[span].last - spans[span].first) * input.segment_length;
+    if (!(vector(&RodEquilibriumLanes::reach, static_cast<int>(span), copy).norm() < kReach * longest)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool RodEquilibrium::State::swingsFreely(int copy) const {
+  const AlignedArray& response = groups[copy / kLanes].response;
+  for (std::size_t i = copy % kLanes; i < response.size(); i += kLanes) {
+    if (!(std::abs(response[i]) < kLargestResponse)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void RodEquilibrium::State::points(int copy, double* to) const {
+  const int n = parameters.segments;
+  const double half = 0.5 * parameters.segmentLength();
+  const auto write = [to](int point, const Vector3& x) { std::copy(x.data(), x.data() + 3, to + 3 * point); };
+  const auto opening = [&](int joint) {  // of an extensible rod, between two segments
+    const Vector3 d = tangentOf(joint, copy);
+    return Vector3(input.axial_compliance * d.dot(jointForce(joint, copy)) * d);
+  };
+  Vector3 end = first_position[copy] + half * tangentOf(held.front(), copy);
+  for (int i = held.front(); i + 1 < n; ++i) {
+    const Vector3 gap = opening(i);
+    write(i + 1, end + 0.5 * gap);
+    end += gap + 2.0 * half * tangentOf(i + 1, copy);
+  }
+  write(n, end);
+  end = first_position[copy] - half * tangentOf(held.front(), copy);
+  for (int i = held.front(); i > 0; --i) {
+    const Vector3 gap = opening(i - 1);
+    write(i, end - 0.5 * gap);
+    end -= gap + 2.0 * half * tangentOf(i - 1, copy);
+  }
+  write(0, end);
+}
+
+//! [N] on the joint's first segment.
+Vector3 RodEquilibrium::State::jointForce(int joint, int copy) const {
+  const Vector3 weight(input.weight[0], input.weight[1], input.weight[2]);
+  const int span = span_of_joint[joint];
+  if (span >= 0) {
+    return vector(&RodEquilibriumLanes::force, span, copy) - (joint - spans[span].first) * weight;
+  }
+  return (joint < held.front() ? -(joint + 1) : input.segments - 1 - joint) * weight;
+}
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

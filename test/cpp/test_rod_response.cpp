@@ -1,0 +1,189 @@
+// The exact response of a rod to its holds against differences of settled shapes.
+
+#include <gtest/gtest.h>
+
+#include "deformable_manipulation/pbd/rod_equilibrium.h"
+#include "rod_fixture.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+std::vector<double> pointsOf(const Rod& rod) {
+  std::vector<double> points(3 * rod.pointCount() * rod.copyCount());
+  rod.points(points.data());
+  return points;
+}
+
+struct Grips {
+  const char* name;
+  std::vector<std::pair<int, Hold>> holds;  // along y, 1.5 m from the first to the last
+  Stretch stretch;
+  double young_modulus;
+};
+
+std::unique_ptr<Rod> heldRod(const Grips& grips) {
+  RodParameters p = rope();
+  p.young_modulus = grips.young_modulus;
+  p.torsion_modulus = grips.young_modulus / 3.0;
+  p.stretch = grips.stretch;
+  auto rod = std::make_unique<Rod>(p);
+  for (const auto& [particle, type] : grips.holds) {
+    const double along = 1.5 * particle / (p.segments - 1);
+    rod->hold(particle, type, gripAt(p, Vector3(0.02 * particle / p.segments, along, 0.1 * along)));
+  }
+  rod->layOut();
+  return rod;
+}
+
+class Equilibrium : public testing::TestWithParam<Grips> {};
+
+TEST_P(Equilibrium, isWhereTheRodSettles) {
+  auto rod = heldRod(GetParam());
+  SettleOptions options;
+  options.speed_tolerance = 1e-8;
+  options.substeps = 2;
+  ASSERT_TRUE(rod->settle(options));
+  RodEquilibrium equilibrium;
+  equilibrium.update(*rod, 1);
+  ASSERT_EQ(equilibrium.status(0), ResponseStatus::VALID) << describe(equilibrium.status(0));
+  std::vector<double> found(3 * rod->pointCount());
+  equilibrium.points(0, found.data());
+  const std::vector<double> settled = pointsOf(*rod);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], settled[i], 1e-6) << "coordinate " << i;
+  }
+}
+
+TEST_P(Equilibrium, respondsAsSmallDifferencesDo) {
+  auto rod = heldRod(GetParam());
+  SettleOptions options;
+  ASSERT_TRUE(rod->settle(options));
+  EquilibriumOptions exact;
+  exact.tolerance = 1e-10;
+  RodEquilibrium equilibrium;
+  equilibrium.update(*rod, 1, exact);
+  ASSERT_EQ(equilibrium.status(0), ResponseStatus::VALID) << describe(equilibrium.status(0));
+  const int coordinates = 3 * rod->pointCount();
+  std::vector<double> response(rod->holds().size() * 3 * coordinates);
+  equilibrium.response(0, response.data());
+
+  const double step = 1e-5;
+  for (std::size_t h = 0; h < rod->holds().size(); ++h) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> shapes[2];
+      for (int side = 0; side < 2; ++side) {
+        const HeldPoint& held = rod->holds()[h];
+        Pose pose = held.pose;
+        pose.position[axis] += side == 0 ? step : -step;
+        const auto displaced = rod->clone();
+        displaced->setPose(held.particle, pose);
+        RodEquilibrium there;
+        there.update(dynamic_cast<const Rod&>(*displaced), 1, exact);
+        ASSERT_EQ(there.status(0), ResponseStatus::VALID) << describe(there.status(0));
+        shapes[side].resize(coordinates);
+        there.points(0, shapes[side].data());
+      }
+      for (int i = 0; i < coordinates; ++i) {
+        const double difference = (shapes[0][i] - shapes[1][i]) / (2.0 * step);
+        EXPECT_NEAR(response[h * 3 * coordinates + 3 * i + axis], difference, 1e-7)
+            << "hold " << h << ", axis " << axis << ", coordinate " << i;
+      }
+    }
+  }
+}
+
+TEST(EquilibriumOfCopies, isWhereTheySettle) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  for (int axis = 0; axis < 3; ++axis) {
+    rod->addCopy(27, 0.1 * Vector3::Unit(axis));
+    rod->addCopy(27, -0.1 * Vector3::Unit(axis));
+    rod->addCopy(0, 0.1 * Vector3::Unit(axis));
+  }
+  SettleOptions options;
+  options.speed_tolerance = 1e-8;
+  options.substeps = 2;
+  ASSERT_TRUE(rod->settle(options));
+  RodEquilibrium equilibrium;
+  equilibrium.update(*rod, rod->copyCount());
+  const std::vector<double> settled = pointsOf(*rod);
+  const std::size_t coordinates = 3 * rod->pointCount();
+  std::vector<double> found(coordinates);
+  for (int copy = 0; copy < rod->copyCount(); ++copy) {
+    ASSERT_EQ(equilibrium.status(copy), ResponseStatus::VALID) << describe(equilibrium.status(copy));
+    equilibrium.points(copy, found.data());
+    for (std::size_t i = 0; i < coordinates; ++i) {
+      EXPECT_NEAR(found[i], settled[copy * coordinates + i], 1e-6) << "copy " << copy << ", coordinate " << i;
+    }
+  }
+}
+
+TEST(Response, followsTheHoldsWarmStarted) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  ASSERT_TRUE(rod->settle(SettleOptions()));
+  RodEquilibrium equilibrium;
+  equilibrium.update(*rod, 1);
+  rod->setTwist(27, {Vector3(0.05, -0.1, 0.1), Vector3::Zero()});
+  for (int i = 0; i < 300; ++i) {
+    rod->step(0.01, 2);
+    equilibrium.update(*rod, 1);
+    ASSERT_EQ(equilibrium.status(0), ResponseStatus::VALID) << describe(equilibrium.status(0)) << ", step " << i;
+    EXPECT_LE(equilibrium.iterations(), 3);
+  }
+}
+
+TEST(Response, movesAllPointsWithAllHolds) {
+  auto rod = hangingRope(rope(), 1.5, Hold::PINNED);
+  ASSERT_TRUE(rod->settle(SettleOptions()));
+  std::vector<double> response(2 * rod->pointCount() * 9);
+  ASSERT_EQ(rod->response(response.data()), ResponseStatus::VALID);
+  for (int point = 0; point < rod->pointCount(); ++point) {
+    for (int i = 0; i < 9; ++i) {
+      const double sum = response[9 * point + i] + response[9 * (rod->pointCount() + point) + i];
+      EXPECT_NEAR(sum, i % 4 == 0 ? 1.0 : 0.0, 1e-9);
+    }
+  }
+}
+
+TEST(Response, saysWhyThereIsNone) {
+  std::vector<double> response(2 * 29 * 9);
+  Rod free(rope());
+  EXPECT_EQ(free.response(response.data()), ResponseStatus::NOT_HELD);
+
+  auto taut = hangingRope(rope(), 2.5, Hold::CLAMPED);
+  EXPECT_EQ(taut->response(response.data()), ResponseStatus::OUT_OF_REACH);
+
+  auto swinging = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  ASSERT_TRUE(swinging->settle(SettleOptions()));
+  swinging->setPose(27, gripAt(rope(), Vector3(0.0, 0.3, 0.0)));
+  EXPECT_EQ(swinging->response(response.data()), ResponseStatus::OTHER_SHAPE);
+  ASSERT_TRUE(swinging->settle(SettleOptions()));
+  EXPECT_EQ(swinging->response(response.data()), ResponseStatus::VALID);
+}
+
+TEST(Response, isNotGivenForAnUnstableShape) {
+  RodParameters p = rope();  // stands upright on a clamped end, though it is far too soft to
+  p.pose.orientation = Quaternion(Eigen::AngleAxisd(-M_PI / 2.0, Vector3::UnitY()));
+  Rod rod(p);
+  rod.hold(0, Hold::CLAMPED);
+  std::vector<double> response(rod.pointCount() * 9);
+  EXPECT_EQ(rod.response(response.data()), ResponseStatus::UNSTABLE);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Holds, Equilibrium,
+    testing::Values(
+        Grips{"clampedEnds", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::ZERO, 30e6},
+        Grips{"pinnedEnds", {{0, Hold::PINNED}, {27, Hold::PINNED}}, Stretch::ZERO, 30e6},
+        Grips{"extensible", {{0, Hold::CLAMPED}, {27, Hold::PINNED}}, Stretch::FROM_MODULI, 1e6},
+        Grips{"threeHolds", {{2, Hold::CLAMPED}, {13, Hold::PINNED}, {24, Hold::CLAMPED}}, Stretch::ZERO, 30e6},
+        Grips{"interiorClamped",
+              {{0, Hold::PINNED}, {14, Hold::CLAMPED}, {27, Hold::PINNED}},
+              Stretch::FROM_MODULI,
+              30e6},
+        Grips{"oneHold", {{5, Hold::CLAMPED}}, Stretch::ZERO, 30e6}),
+    [](const testing::TestParamInfo<Grips>& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace pbd
+}  // namespace deformable_manipulation
