@@ -29,17 +29,6 @@ DM_INLINE Vec3 transposedTimes(const Mat3& a, const Vec3& v) {
   return {dot(a.column[0], v), dot(a.column[1], v), dot(a.column[2], v)};
 }
 
-//! (A + A^T) / 2
-DM_INLINE Sym3 symmetricPart(const Mat3& a) {
-  const Pack half = broadcast(0.5);
-  return {a.column[0].x,
-          half * (a.column[0].y + a.column[1].x),
-          a.column[1].y,
-          half * (a.column[0].z + a.column[2].x),
-          half * (a.column[1].z + a.column[2].y),
-          a.column[2].z};
-}
-
 DM_INLINE Sym3 operator+(const Sym3& a, const Sym3& b) {
   return {a.xx + b.xx, a.yx + b.yx, a.yy + b.yy, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
 }
@@ -47,10 +36,21 @@ DM_INLINE Sym3 operator-(const Sym3& a, const Sym3& b) {
   return {a.xx - b.xx, a.yx - b.yx, a.yy - b.yy, a.zx - b.zx, a.zy - b.zy, a.zz - b.zz};
 }
 
-DM_INLINE Sym3 identity3() {
+DM_INLINE Sym3 diagonal3(const Pack& s) {
   const Pack zero = {};
-  const Pack one = broadcast(1.0);
-  return {one, zero, one, zero, zero, one};
+  return {s, zero, s, zero, zero, s};
+}
+
+//! [v]x, the matrix of the cross product with v from the left.
+DM_INLINE Mat3 crossMatrix(const Vec3& v) {
+  const Pack zero = {};
+  return {{{zero, v.z, -v.y}, {-v.z, zero, v.x}, {v.y, -v.x, zero}}};
+}
+
+DM_INLINE Mat3 operator-(const Mat3& a, const Sym3& b) {
+  return {{{a.column[0].x - b.xx, a.column[0].y - b.yx, a.column[0].z - b.zx},
+           {a.column[1].x - b.yx, a.column[1].y - b.yy, a.column[1].z - b.zy},
+           {a.column[2].x - b.zx, a.column[2].y - b.zy, a.column[2].z - b.zz}}};
 }
 
 //! s (a b^T + b a^T) / 2

@@ -33,6 +33,7 @@ RodEquilibriumLanes::RodEquilibriumLanes(int segments, int spans, int holds)
     : orientation(4 * kLanes * segments),
       force(3 * kLanes * spans),
       reach(3 * kLanes * spans),
+      last_reach(3 * kLanes * spans),
       response(9 * kLanes * holds * (segments + 1)),
       change(kLanes),
       unstable(kLanes),
@@ -55,7 +56,8 @@ struct RodEquilibrium::State {
   std::vector<RodEquilibriumLanes> groups;
   std::vector<ResponseStatus> status;   // of each copy
   std::vector<Vector3> first_position;  // of each copy's first held segment
-  std::vector<double> shape, present;   // points of a copy, found and simulated
+  std::vector<double> shape;            // points of a copy as found
+  std::vector<double> present;          // points of all copies as simulated
   int iterations = 0;
 
   void configure(const Rod& rod);
@@ -64,8 +66,9 @@ struct RodEquilibrium::State {
   void connect();
   void hold(const Rod& rod, int slot, int copy);
   void startFrom(const Rod& rod, int slot, int copy);
-  void search(int group, const EquilibriumOptions& options);
-  ResponseStatus judge(const Rod& rod, int copy, const EquilibriumOptions& options);
+  bool solve(const Rod& rod, int first, int last, const EquilibriumOptions& options);
+  void search(RodEquilibriumLanes& lanes, int copies, const EquilibriumOptions& options);
+  ResponseStatus judge(int copy, const EquilibriumOptions& options);
   bool outOfReach(int copy) const;
   bool swingsFreely(int copy) const;
   void points(int copy, double* to) const;
@@ -142,24 +145,34 @@ void RodEquilibrium::update(const Rod& rod, int copies, const EquilibriumOptions
   for (int group = 0; group < groups; ++group) {
     const int first = group * kLanes;
     const int last = std::min(copies, first + kLanes) - 1;
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      for (int slot = first; slot < first + kLanes; ++slot) {
-        const int copy = std::min(slot, last);  // idle lanes repeat a copy, so that none computes nonsense
-        s.hold(rod, slot, copy);
-        if (s.status[copy] != ResponseStatus::VALID) {
-          s.startFrom(rod, slot, copy);
-        }
-      }
-      s.search(group, options);
-      for (int copy = first; copy <= last; ++copy) {
-        s.status[copy] = s.judge(rod, copy, options);
-      }
-      if (std::all_of(s.status.begin() + first, s.status.begin() + last + 1,
-                      [](ResponseStatus status) { return status == ResponseStatus::VALID; })) {
-        break;
-      }
+    for (int slot = first; slot < first + kLanes; ++slot) {
+      s.hold(rod, slot, std::min(slot, last));  // idle lanes repeat a copy, so that none computes nonsense
+    }
+    selectedRodEquilibriumKernel().follow(s.input, s.groups[group], last - first + 1);
+    if (!s.solve(rod, first, last, options)) {
+      s.solve(rod, first, last, options);  // those that failed, from the simulated shape
     }
   }
+}
+
+//! Finds the equilibria of copies first to last, all in one group. Where the last one is not known it starts from the
+//! simulated shape. @return whether all are valid
+bool RodEquilibrium::State::solve(const Rod& rod, int first, int last, const EquilibriumOptions& options) {
+  for (int slot = first; slot < first + kLanes; ++slot) {
+    const int copy = std::min(slot, last);
+    if (status[copy] != ResponseStatus::VALID) {
+      startFrom(rod, slot, copy);
+    }
+  }
+  search(groups[first / kLanes], last - first + 1, options);
+  present.resize(shape.size() * rod.copyCount());
+  rod.points(present.data());
+  bool all_valid = true;
+  for (int copy = first; copy <= last; ++copy) {
+    status[copy] = judge(copy, options);
+    all_valid = all_valid && status[copy] == ResponseStatus::VALID;
+  }
+  return all_valid;
 }
 
 void RodEquilibrium::State::configure(const Rod& rod) {
@@ -248,23 +261,20 @@ void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   }
 }
 
-void RodEquilibrium::State::search(int group, const EquilibriumOptions& options) {
-  const int first = group * kLanes;
-  const int copies = std::min(static_cast<int>(status.size()) - first, kLanes);
+void RodEquilibrium::State::search(RodEquilibriumLanes& lanes, int copies, const EquilibriumOptions& options) {
   const RodEquilibriumKernel kernel = selectedRodEquilibriumKernel();
-  RodEquilibriumLanes& lanes = groups[group];
-  for (int i = 0; i < options.iterations; ++i) {
+  const auto moves = [&](double change) { return !(change < options.tolerance) && std::isfinite(change); };
+  int steps = 0;
+  do {
     kernel.step(input, lanes, copies);
-    iterations = std::max(iterations, i + 1);
-    const auto moves = [&](double change) { return !(change < options.tolerance) && std::isfinite(change); };
-    if (std::none_of(lanes.change.begin(), lanes.change.begin() + copies, moves)) {
-      break;
-    }
-  }
+    ++steps;
+  } while (steps < options.iterations && std::any_of(lanes.change.begin(), lanes.change.begin() + copies, moves));
+  iterations = std::max(iterations, steps);
   kernel.respond(input, lanes, copies);
+  lanes.last_reach = lanes.reach;
 }
 
-ResponseStatus RodEquilibrium::State::judge(const Rod& rod, int copy, const EquilibriumOptions& options) {
+ResponseStatus RodEquilibrium::State::judge(int copy, const EquilibriumOptions& options) {
   const RodEquilibriumLanes& lanes = groups[copy / kLanes];
   if (outOfReach(copy)) {
     return ResponseStatus::OUT_OF_REACH;
@@ -276,8 +286,6 @@ ResponseStatus RodEquilibrium::State::judge(const Rod& rod, int copy, const Equi
     return ResponseStatus::UNSTABLE;
   }
   points(copy, shape.data());
-  present.resize(shape.size() * rod.copyCount());
-  rod.points(present.data());
   double farthest = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) {
     farthest = std::max(farthest, std::abs(shape[i] - present[copy * shape.size() + i]));

@@ -10,29 +10,23 @@ namespace pbd {
 namespace DEFORMABLE_MANIPULATION_ISA {
 namespace {
 
-//! Moment that a joint exerts on its first segment, and its derivative.
+//! Moment M that a joint exerts on its first segment. With the rotation phi of the second segment
+//! against the first one, dM / dphi = stiffness - [M]x / 2 in the frame that turns with the first.
 struct JointMoment {
   Vec3 moment;     // N m
-  Mat3 stiffness;  // d moment / d (rotation of the second against the first segment)
+  Sym3 stiffness;  // N m/rad
 };
 
 DM_INLINE JointMoment momentOf(const Joint& joint, const Pack& bending, const Pack& torsion) {
-  const Pack two = 2.0 * joint.inverse_length;
-  const Pack half = broadcast(0.5);
-  const auto stress = [&](const Vec3& k) { return bending * k + ((torsion - bending) * dot(joint.d0, k)) * joint.d0; };
-  const Vec3 s = stress(joint.k);
-  JointMoment result;
-  result.moment = two * (joint.w * s + cross(joint.k, s));
-  const Pack zero = {};
-  const Pack one = broadcast(1.0);
-  const Vec3 unit[3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 dk = half * (joint.w * unit[i] - cross(joint.k, unit[i]));
-    const Pack dw = -half * dot(joint.k, unit[i]);
-    const Vec3 ds = stress(dk);
-    result.stiffness.column[i] = two * (dw * s + joint.w * ds + cross(dk, s) + cross(joint.k, ds));
-  }
-  return result;
+  const Vec3& d = joint.d0;
+  const Pack& w = joint.w;
+  const Pack excess = (torsion - bending) * joint.inverse_length;
+  const Pack flexural = bending * joint.inverse_length;
+  const Pack twist = dot(d, joint.k);
+  const Vec3 p = w * d + cross(joint.k, d);
+  const Sym3 isotropic = diagonal3(flexural * w * w - excess * twist * twist);
+  return {broadcast(2.0) * ((flexural * w) * joint.k + (excess * twist) * p),
+          isotropic - symmetricProduct(flexural, joint.k, joint.k) + symmetricProduct(excess, p, p)};
 }
 
 DM_INLINE Pack largerOf(const Pack& a, const Pack& b) { return a > b ? a : b; }
@@ -64,14 +58,33 @@ class Equilibrium {
     apply();
   }
 
+  //! Follows moved holds to first order, with the matrices of the last step.
+  void follow() {
+    const int rows = 3 * in_.span_count;
+    for (int r = 0; r < rows; ++r) {
+      Pack change = {};
+      for (int k = 0; k < rows; ++k) {
+        const Pack moved = load(at(s_.reach, k)) - load(at(s_.last_reach, k));
+        change += load(closure(r, rows + 1 + k)) * moved;
+      }
+      store(closure(r, rows), change);
+    }
+    for (int i = 0; i < in_.segments; ++i) {
+      store3(at(s_.correction, 3 * i), kLanes, Vec3{});
+    }
+    negative_ = load(at(s_.unstable, 0));
+    apply();
+  }
+
   //! Derivatives of all points with respect to each held point, from the last step.
   void respond() {
-    for (int h = 0; h < in_.held_count; ++h) {
+    for (int h = 1; h < in_.held_count; ++h) {
       for (int axis = 0; axis < 3; ++axis) {
         forcesFor(h, axis);
         respondTo(h, axis);
       }
     }
+    respondToFirst();
   }
 
  private:
@@ -102,10 +115,9 @@ class Equilibrium {
     return before + after;
   }
 
+  //! d moment on a segment / d force in a span
   DM_INLINE Mat3 leverOf(int span, int i, const Vec3& d) const {
-    const Pack lever = broadcast(jointsIn(span, i)) * half_length_;
-    const Pack zero = {};
-    return {{{zero, lever * d.z, -lever * d.y}, {-lever * d.z, zero, lever * d.x}, {lever * d.y, -lever * d.x, zero}}};
+    return crossMatrix((broadcast(jointsIn(span, i)) * half_length_) * d);
   }
 
   //! Forward elimination of the moment balance, for the residual and for each force of the spans.
@@ -127,26 +139,21 @@ class Equilibrium {
       const Vec3 force_after = force(i);
       const Vec3 pull = force_before + force_after;
       const Vec3 residual = after.moment - before.moment + half_length_ * cross(d, pull);
-      eliminateSegment(i, d, pull, residual, before.stiffness, after.stiffness);
+      eliminateSegment(i, d, pull, residual, before.stiffness, after);
       before = after;
       force_before = force_after;
     }
   }
 
-  DM_INLINE void eliminateSegment(int i, const Vec3& d, const Vec3& pull, const Vec3& residual, const Mat3& before,
-                                  const Mat3& after) {
+  DM_INLINE void eliminateSegment(int i, const Vec3& d, const Vec3& pull, const Vec3& residual, const Sym3& before,
+                                  const JointMoment& after) {
     const bool free = !in_.clamped[i];
     const bool coupled = i > 0 && free && !in_.clamped[i - 1];
-    Sym3 pivot = identity3();
+    Sym3 pivot = diagonal3(broadcast(1.0));
     Vec3 right = {};
     if (free) {
-      const Pack tension = half_length_ * dot(d, pull);
-      const Sym3 geometric = symmetricProduct(half_length_, d, pull);
-      pivot = symmetricPart(before) + symmetricPart(after) - geometric +
-              symmetricProduct(broadcast(in_.spin_stiffness), d, d);
-      pivot.xx += tension;
-      pivot.yy += tension;
-      pivot.zz += tension;
+      pivot = before + after.stiffness + diagonal3(half_length_ * dot(d, pull)) -
+              symmetricProduct(half_length_, d, pull) + symmetricProduct(broadcast(in_.spin_stiffness), d, d);
       right = residual;
     }
     Mat3 carried = {};  // inverse pivot of the segment before times the coupling
@@ -162,9 +169,7 @@ class Equilibrium {
     }
     storeSym3(at(s_.inverse_pivot, 6 * i), kLanes, inverse3(pivot, negative_));
     store3(at(s_.correction, 3 * i), kLanes, right);
-    const Pack minus = broadcast(-1.0);
-    storeMat3(at(s_.coupling, 9 * i), kLanes,
-              {{minus * after.column[0], minus * after.column[1], minus * after.column[2]}});
+    storeMat3(at(s_.coupling, 9 * i), kLanes, crossMatrix(broadcast(0.5) * after.moment) - after.stiffness);
     for (int span = 0; span < in_.span_count; ++span) {
       Mat3 lever = {};
       if (free) {
@@ -365,36 +370,42 @@ class Equilibrium {
     store(to + 6 * kLanes, value.z);
   }
 
-  //! Column of the response: walks along the chain from the first hold to both ends.
+  //! Column of the response: walks along the chain from the first hold, which stays, to both ends.
   void respondTo(int h, int axis) {
     const int start = in_.held[0];
-    const Pack one = broadcast(h == 0 ? 1.0 : 0.0);
-    const Pack zero = {};
-    const Vec3 held = {axis == 0 ? one : zero, axis == 1 ? one : zero, axis == 2 ? one : zero};
-
     const Pack half = broadcast(0.5);
     const Vec3 start_change = tangentChange(start);
-    Vec3 centre = held;
     Vec3 v = start_change;
+    Vec3 end = half_length_ * v;
     for (int i = start; i + 1 < in_.segments; ++i) {
       const Vec3 opening = openingChange(i, v);
-      const Vec3 end = centre + half_length_ * v;
       storeResponse(h, i + 1, axis, end + half * opening);
       v = tangentChange(i + 1);
-      centre = end + opening + half_length_ * v;
+      end = end + opening + (2.0 * half_length_) * v;
     }
-    storeResponse(h, in_.segments, axis, centre + half_length_ * v);
+    storeResponse(h, in_.segments, axis, end);
 
-    centre = held;
     v = start_change;
+    end = broadcast(-1.0) * (half_length_ * v);
     for (int i = start; i > 0; --i) {
-      const Vec3 end = centre - half_length_ * v;
       v = tangentChange(i - 1);
       const Vec3 opening = openingChange(i - 1, v);
       storeResponse(h, i, axis, end - half * opening);
-      centre = end - opening - half_length_ * v;
+      end = end - opening - (2.0 * half_length_) * v;
     }
-    storeResponse(h, 0, axis, centre - half_length_ * v);
+    storeResponse(h, 0, axis, end);
+  }
+
+  //! Moving all holds together moves the rod as it is: the responses sum to the identity.
+  void respondToFirst() {
+    const int entries = 9 * (in_.segments + 1);
+    for (int k = 0; k < entries; ++k) {
+      Pack rest = broadcast(k % 9 % 4 == 0 ? 1.0 : 0.0);
+      for (int h = 1; h < in_.held_count; ++h) {
+        rest -= load(at(s_.response, h * entries + k));
+      }
+      store(at(s_.response, k), rest);
+    }
   }
 
   const RodEquilibriumInput& in_;
@@ -413,6 +424,12 @@ void newtonStep(const RodEquilibriumInput& input, RodEquilibriumLanes& lanes, in
   }
 }
 
+void follow(const RodEquilibriumInput& input, RodEquilibriumLanes& lanes, int copies) {
+  for (int lane = 0; lane < copies; lane += kPackWidth) {
+    Equilibrium(input, lanes, lane).follow();
+  }
+}
+
 void respond(const RodEquilibriumInput& input, RodEquilibriumLanes& lanes, int copies) {
   for (int lane = 0; lane < copies; lane += kPackWidth) {
     Equilibrium(input, lanes, lane).respond();
@@ -421,7 +438,7 @@ void respond(const RodEquilibriumInput& input, RodEquilibriumLanes& lanes, int c
 
 }  // namespace
 
-RodEquilibriumKernel rodEquilibriumKernel() { return {newtonStep, respond}; }
+RodEquilibriumKernel rodEquilibriumKernel() { return {follow, newtonStep, respond}; }
 
 }  // namespace DEFORMABLE_MANIPULATION_ISA
 }  // namespace pbd

@@ -36,6 +36,7 @@ struct RodEquilibriumLanes {
   AlignedArray orientation;  // [N x 4] quaternion x y z w
   AlignedArray force;        // [S x 3] N, of the first joint of a span on the span's first segment
   AlignedArray reach;        // [S x 3] m, from the first to the last held centre of a span
+  AlignedArray last_reach;   // [S x 3] m, of the shape found last
   AlignedArray response;     // [H x (N + 1) x 9] d point / d held point, row-major
 
   AlignedArray change;    // [1] of the last step: largest turn of a tangent [rad] or relative change of a force
@@ -54,6 +55,7 @@ using RodEquilibriumFunction = void (*)(const RodEquilibriumInput&, RodEquilibri
 
 //! Compiled for one instruction set.
 struct RodEquilibriumKernel {
+  RodEquilibriumFunction follow;   //!< turns the shapes to first order for holds that have moved since the last step
   RodEquilibriumFunction step;     //!< a step of Newton's method
   RodEquilibriumFunction respond;  //!< the derivatives, from the matrices of the last step
 };

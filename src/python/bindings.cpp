@@ -302,7 +302,7 @@ void bindEquilibrium(py::module_& module) {
       "The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with respect to\n"
       "each held point by implicit differentiation. Each update starts from the last one.")
       .def(py::init<>())
-      .def("update", &BoundEquilibrium::update, py::arg("rod"), py::arg("copies") = 1, py::arg("tolerance") = 1e-7,
+      .def("update", &BoundEquilibrium::update, py::arg("rod"), py::arg("copies") = 1, py::arg("tolerance") = 1e-5,
            py::arg("iterations") = 20, py::call_guard<py::gil_scoped_release>(),
            "Finds the equilibria of the first copies at their present holds. tolerance: of the last Newton step,\n"
            "turns [rad] and relative forces.")

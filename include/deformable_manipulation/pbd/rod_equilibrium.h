@@ -11,7 +11,7 @@ namespace pbd {
 
 //! When a search for an equilibrium ends.
 struct EquilibriumOptions {
-  double tolerance = 1e-7;  //!< of the last step, turns [rad] and relative forces; the error left is about its square
+  double tolerance = 1e-5;  //!< of the last step, turns [rad] and relative forces; the error left is about its square
   int iterations = 20;      //!< at most, per start
 };
 
