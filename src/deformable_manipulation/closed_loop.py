@@ -101,7 +101,15 @@ class ClosedLoop:
             displacements=simulation.displacements(),
             ready=simulation.ready(),
             distances=self._distance.compute(points),
+            sensitivities=self._sensitivities(),
         )
+
+    def _sensitivities(self):
+        """Exact response of the object, where it is wanted and known; else None."""
+        if self._scenario.controller.jacobian != "equilibrium":
+            return None
+        response = self._simulation.response()
+        return None if isinstance(response, str) else response
 
 
 def make_minimum_distance(scenario: Scenario) -> PlanarMinimumDistance:

@@ -173,6 +173,7 @@ SimulatorScenario readScenario(const XmlRpcValue& value) {
   scenario.rod = readRod(root.section("object"), simulation);
   readAgents(root, scenario);
   addPerturbations(controller, scenario);
+  scenario.exact_response = controller.choice<bool>("jacobian", {{"perturbed_copies", false}, {"equilibrium", true}});
   scenario.clock.time_step = simulation.number("time_step");
   scenario.clock.substeps = simulation.integer("substeps");
   scenario.duration = simulation.number("duration");

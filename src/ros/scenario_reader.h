@@ -20,6 +20,7 @@ struct SimulatorScenario {
   std::vector<bool> is_assistant;   // one per agent
   std::vector<DrivenBy> driven_by;  // one per agent
   std::vector<pbd::Perturbation> perturbations;
+  bool exact_response = false;  // the controllers want the exact response of the object
   pbd::Clock clock;
   double duration = 0.0;         // s
   double command_timeout = 0.0;  // s

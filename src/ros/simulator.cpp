@@ -105,6 +105,9 @@ void Simulator::publish() {
     }
   }
   fillState(simulation_, stamp, scenario_.frame, state_);
+  if (scenario_.exact_response) {
+    addResponse();
+  }
   ++published_;
   if (options_.lockstep) {
     rosgraph_msgs::Clock clock;
@@ -117,6 +120,16 @@ void Simulator::publish() {
     links_[i].publish(simulation_.pose(agent), simulation_.wrench(agent), stamp);
   }
   visualization_.show(state_);
+}
+
+void Simulator::addResponse() {
+  const pbd::ResponseStatus status = fillSensitivities(simulation_, state_);
+  if (status != pbd::ResponseStatus::VALID) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
+                             "The exact response of the object is not known, its perturbed copies take "
+                             "over: "
+                                 << pbd::describe(status) << ".");
+  }
 }
 
 void Simulator::awaitCommands() {

@@ -73,6 +73,15 @@ void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const 
   }
 }
 
+pbd::ResponseStatus fillSensitivities(pbd::Simulation& simulation, ObjectState& message) {
+  message.sensitivities.resize(9 * simulation.agents().size() * simulation.body().pointCount());
+  const pbd::ResponseStatus status = simulation.response(message.sensitivities.data());
+  if (status != pbd::ResponseStatus::VALID) {
+    message.sensitivities.clear();
+  }
+  return status;
+}
+
 geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;

@@ -13,6 +13,7 @@ from deformable_manipulation.control.observation import find_fault
 from deformable_manipulation.control.overstretch import OverstretchBarrier
 from deformable_manipulation.control.proximity import ProximityBarrier
 from deformable_manipulation.control.safety_filter import SafetyFilter
+from deformable_manipulation.control.sensitivities import exact_features
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.velocity_estimator import VelocityEstimator
 from deformable_manipulation.scenario import pair_limits
@@ -158,8 +159,11 @@ class AssistantController:
         known = self._known(observation, nominal)
         if not self.enabled:
             return self._stopped(Status.DISABLED, Status.DISABLED.sentence, **known)
-        features = self._features(observation)
-        if self._safety and len(features.distance) and not self._differences.known(self._agent):
+        exact = self._is_exact(observation)
+        known["exact_jacobian"] = exact
+        features = self._features(observation, exact)
+        usable = exact or self._differences.known(self._agent)
+        if self._safety and len(features.distance) and not usable:
             text = f"Waits, zero velocity: the state has no ready perturbed copies of {self._name}."
             return self._stopped(Status.WAITING, text, **known)
         known.update(self._sensitivity(features, situation))
@@ -200,8 +204,17 @@ class AssistantController:
             "h_proximity": float(self._proximity.value(positions).min()),
         }
 
-    def _features(self, observation):
-        if self._settings.collision.gradient == "minimum":
+    def _is_exact(self, observation):
+        wanted = self._settings.jacobian == "equilibrium"
+        return wanted and observation.sensitivities is not None
+
+    def _features(self, observation, exact):
+        minimum_only = self._settings.collision.gradient == "minimum"
+        if exact:
+            return exact_features(
+                observation.distances, observation.sensitivities, self._leader, minimum_only
+            )
+        if minimum_only:
             return self._differences.minimum(observation.distances)
         return self._differences.features(observation.distances)
 

@@ -32,6 +32,7 @@ class Decision:
     h_overstretch: float = np.nan  # m, the lowest over the other agents
     h_proximity: float = np.nan  # m, the lowest over the other agents
     jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
+    exact_jacobian: bool = False  # from the equilibrium; False: from perturbed copies
     leader_drift: float = np.nan  # m/s, change of the distance by the leader's motion
     rows: int = 0  # of the barriers
     slack_collision: float = 0.0  # m/s, how far the rows of each kind are relaxed

@@ -1,24 +1,10 @@
 """Gradients of distances by differences over perturbed copies of the object."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from deformable_manipulation.control.features import features_of
+
 _SMALLEST_DISPLACEMENT = 1e-6  # m, below which a difference is rounding
-
-
-@dataclass(frozen=True)
-class Features:
-    """M nearest features of the object itself with their gradients.
-
-    ``gradients[m, a] . v`` is the rate at which feature m's distance grows when agent a's held
-    point moves with the velocity v.
-    """
-
-    distance: np.ndarray  # (M,) m, signed
-    normal: np.ndarray  # (M, 3) unit vector along which the distance grows fastest
-    obstacle_velocity: np.ndarray  # (M, 3) m/s
-    gradients: np.ndarray  # (M, A, 3)
 
 
 class Differences:
@@ -104,21 +90,11 @@ class Differences:
         rates = self._rates[:, :, :-1].reshape(self._agents, 3, -1, 3)
         along_normal = np.einsum("mk,mi->mki", distances.weights[chosen], normal)
         gradients = np.einsum("ajmki,mki->maj", rates[:, :, vertices], along_normal)
-        return self._with_leader(distances, chosen, gradients)
+        return features_of(distances, chosen, gradients, self._leader)
 
     def minimum(self, distances):
         """The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6)."""
         start = int(distances.offsets[0])
         chosen = slice(start, min(start + 1, int(distances.offsets[1])))
         gradients = np.repeat(self._rates[None, :, :, -1], chosen.stop - chosen.start, axis=0)
-        return self._with_leader(distances, chosen, gradients)
-
-    def _with_leader(self, distances, chosen, gradients):
-        normal = distances.normal[chosen]
-        gradients[:, self._leader] = normal - gradients.sum(axis=1)
-        return Features(
-            distance=distances.distance[chosen],
-            normal=normal,
-            obstacle_velocity=distances.obstacle_velocity[chosen],
-            gradients=gradients,
-        )
+        return features_of(distances, chosen, gradients, self._leader)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -23,6 +24,8 @@ class Observation:
     displacements: np.ndarray  # (C, 3) m, present displacement of that held point
     ready: np.ndarray  # (C,) bool, false while a copy still moves to its displacement
     distances: Distances  # of all C copies
+    # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
+    sensitivities: Optional[np.ndarray] = None
 
 
 def find_fault(observation, agents):
@@ -60,6 +63,8 @@ def _wrong_shape(observation, agents):
         ("distances.vertices", observation.distances.vertices, features + (3,)),
         ("distances.obstacle_velocity", observation.distances.obstacle_velocity, features + (3,)),
     )
+    if observation.sensitivities is not None:
+        wanted += (("sensitivities", observation.sensitivities, (agents, points, 3, 3)),)
     for name, value, shape in wanted:
         if np.shape(value) != shape:
             return f"{name} of the state has shape {np.shape(value)}, expected {shape}"
@@ -79,6 +84,8 @@ def _not_finite(observation):
         ("distances.weights", distances.weights),
         ("distances.obstacle_velocity", distances.obstacle_velocity),
     )
+    if observation.sensitivities is not None:
+        fields += (("sensitivities", observation.sensitivities),)
     for name, value in fields:
         if not np.isfinite(value).all():
             return f"{name} of the state holds a number that is not finite"

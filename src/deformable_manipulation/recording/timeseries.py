@@ -27,7 +27,7 @@ ASSISTANT_COLUMNS = (
     + vector_columns("command")
     + ("h_collision", "h_overstretch", "h_proximity")
     + vector_columns("jacobian")
-    + ("leader_drift", "slack_collision", "slack_overstretch", "slack_proximity")
+    + ("exact_jacobian", "leader_drift", "slack_collision", "slack_overstretch", "slack_proximity")
     + ("status", "rows", "solve_time")
 )
 # Kept beside the columns of the file: they describe the machine, not the run.
@@ -133,6 +133,7 @@ def _decision_row(decision: Decision) -> List[float]:
         decision.h_overstretch,
         decision.h_proximity,
         *decision.jacobian.tolist(),
+        decision.exact_jacobian,
         decision.leader_drift,
         decision.slack_collision,
         decision.slack_overstretch,

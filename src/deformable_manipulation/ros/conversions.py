@@ -70,7 +70,16 @@ def to_observation(state, distances, scenario) -> Observation:
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
         distances=to_distances(distances),
+        sensitivities=_sensitivities(state, order),
     )
+
+
+def _sensitivities(state, order):
+    """(A, P, 3, 3) in the scenario's order, or None. Raises MessageError."""
+    if not len(state.sensitivities):
+        return None
+    shape = (len(state.agents), state.point_count, 3, 3)
+    return _reshaped(state.sensitivities, "sensitivities", shape)[order]
 
 
 def to_distances(message) -> Distances:
@@ -124,6 +133,7 @@ def fill_controller_state(message, state, agent, decision):
     message.enabled = decision.enabled
     message.status = int(decision.status)
     message.status_text = decision.text
+    message.exact_jacobian = decision.exact_jacobian
     for name, vector in (
         ("position", decision.position),
         ("target", decision.target),

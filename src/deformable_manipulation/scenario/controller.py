@@ -65,6 +65,7 @@ CONTROLLER = Section(
         "max_velocity": Number("m/s", above=0.0),
         "max_acceleration": Number("m/s^2", above=0.0),
         "perturbation": vector("m", nonzero=True),
+        "jacobian": Choice("perturbed_copies", "equilibrium"),
         "differences": Choice("central", "forward"),
         "feedforward": Flag(),
         "solver": QpSolver(),

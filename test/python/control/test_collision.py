@@ -5,7 +5,8 @@ import pytest
 from deformable_manipulation.control.barriers import Situation
 from deformable_manipulation.control.class_k import PiecewiseLinearClassK
 from deformable_manipulation.control.collision import CollisionBarrier
-from deformable_manipulation.control.differences import Differences, Features
+from deformable_manipulation.control.differences import Differences
+from deformable_manipulation.control.features import Features
 
 SLOPES, OFFSET = (1.0, 5.0), 0.05
 NORMAL = np.array([2.0, -1.0, 2.0]) / 3.0
