@@ -69,6 +69,13 @@ def test_the_rope_would_go_into_the_ground_without_it(unsafe):
     assert lowest_distance(unsafe) < -0.05
 
 
+def test_exact_gradients_keep_the_rope_off_the_ground():
+    records = run(load_scenario(SHORT_ROPE, ["controller.jacobian=equilibrium"]))
+    assert all(record.decisions["assistant_1"].exact_jacobian for record in records)
+    offset = load_scenario(SHORT_ROPE).controller.collision.offset
+    assert offset - TOLERATED <= lowest_distance(records) < offset + 0.02
+
+
 def test_the_leader_goes_where_its_path_goes(scenario, safe):
     leader = scenario.leader_index
     travelled = safe[-1].positions[leader] - safe[0].positions[leader]

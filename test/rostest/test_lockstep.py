@@ -48,6 +48,12 @@ class LockstepTest(unittest.TestCase):
         # It comes near, or nothing would be shown.
         self.assertLess(lowest, offset + 0.02)
 
+    def test_gradients_come_from_where_the_scenario_says(self):
+        exact = self.scenario.controller.jacobian == "equilibrium"
+        for name, controller in self.controllers.items():
+            decisions = controller.wait_for_cycle(self.cycles - 1)[: self.cycles]
+            self.assertEqual({each.exact_jacobian for each in decisions}, {exact}, name)
+
     def test_the_positions_are_those_without_ros(self):
         assert_same_positions(self.states, self.records, self.scenario, TOLERANCE)
 
@@ -62,6 +68,7 @@ class LockstepTest(unittest.TestCase):
                     command_of(decision), expected.command, 0.0, TOLERANCE, err_msg=where
                 )
                 self.assertEqual(decision.status, expected.status, where)
+                self.assertEqual(decision.exact_jacobian, expected.exact_jacobian, where)
                 self.assertAlmostEqual(decision.distance, record.distance, delta=TOLERANCE)
 
 

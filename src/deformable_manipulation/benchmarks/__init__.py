@@ -1,0 +1,1 @@
+"""Measured speed of the package's parts, beside other libraries on the same work."""

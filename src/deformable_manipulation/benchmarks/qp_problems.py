@@ -1,0 +1,91 @@
+"""Random programs of the kind that an assistant solves every cycle; the same in every run."""
+
+from dataclasses import dataclass
+from typing import List, Sequence
+
+import numpy as np
+
+from deformable_manipulation.control.barriers import Rows, Tier
+
+FEASIBLE = "feasible"
+INFEASIBLE = "infeasible"
+SEED = 20  # any
+MAX_VELOCITY = 0.15  # m/s
+SLACK_COSTS = (1e6, 1e4, 1e2)  # times the cost of u_max, per tier
+
+
+@dataclass(frozen=True)
+class Program:
+    """min 1/2 x' hessian x + linear' x, constraints x >= limits."""
+
+    hessian: np.ndarray
+    linear: np.ndarray
+    constraints: np.ndarray
+    limits: np.ndarray
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What a safety filter with equal weights is given."""
+
+    nominal: np.ndarray
+    rows: Sequence[Rows]
+    lower: np.ndarray
+    upper: np.ndarray
+
+    def hard(self) -> Program:
+        """All rows and bounds as they are."""
+        bounds = np.concatenate([np.eye(3), -np.eye(3)])
+        return Program(
+            np.eye(3),
+            -self.nominal,
+            np.concatenate([part.coefficients for part in self.rows] + [bounds]),
+            np.concatenate([part.bounds for part in self.rows] + [self.lower, -self.upper]),
+        )
+
+    def soft(self) -> Program:
+        """Rows that may be missed by a slack per tier, at a linear cost."""
+        hard = self.hard()
+        owners = np.concatenate([np.full(len(part.bounds), part.tier) for part in self.rows])
+        slack = np.zeros((len(hard.limits), len(Tier)))
+        slack[np.arange(len(owners)), owners.astype(int)] = 1.0
+        positive = np.hstack([np.zeros((len(Tier), 3)), np.eye(len(Tier))])
+        return Program(
+            np.eye(3 + len(Tier)),
+            np.concatenate([hard.linear, MAX_VELOCITY * np.array(SLACK_COSTS)]),
+            np.vstack([np.hstack([hard.constraints, slack]), positive]),
+            np.concatenate([hard.limits, np.zeros(len(Tier))]),
+        )
+
+
+def make_problems(kind: str, rows: int, count: int) -> List[Problem]:
+    """A number of problems with so many rows, 3 at least; raises ValueError for fewer."""
+    if rows < 3:
+        raise ValueError(f"rows: {rows}, allowed are 3 or more")
+    generator = np.random.default_rng([SEED, rows])
+    return [_problem(kind, rows, generator) for _ in range(count)]
+
+
+def _problem(kind: str, count: int, generator: np.random.Generator) -> Problem:
+    """Rows that a random velocity satisfies, most of them against the nominal velocity."""
+    possible = generator.uniform(-0.5, 0.5, 3) * MAX_VELOCITY
+    towards = _unit(generator.normal(size=3))
+    nominal = -MAX_VELOCITY * towards
+    # Rows of neighbouring segments have similar normals.
+    normals = _unit(towards + 0.5 * generator.normal(size=(count, 3)))
+    coefficients = generator.uniform(0.2, 1.0, (count, 1)) * normals
+    bounds = coefficients @ possible - generator.exponential(0.02, count)
+    if kind == INFEASIBLE:
+        coefficients[1] = -coefficients[0]
+        bounds[1] = -bounds[0] + 0.02
+    parts = [
+        Rows(Tier.COLLISION, coefficients[:-2], bounds[:-2]),
+        Rows(Tier.OVERSTRETCH, coefficients[-2:-1], bounds[-2:-1]),
+        Rows(Tier.PROXIMITY, coefficients[-1:], bounds[-1:]),
+    ]
+    limit = np.full(3, MAX_VELOCITY)
+    return Problem(nominal, parts, -limit, limit)
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)

@@ -1,0 +1,124 @@
+"""Measures how fast the package is, beside other libraries on the same work."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Optional, Sequence
+
+from deformable_manipulation.benchmarks.machine import describe_machine, load, load_warning
+from deformable_manipulation.benchmarks.report import DocumentError, Report
+from deformable_manipulation.benchmarks.rivals.environment import (
+    checkout,
+    default_environment,
+    install,
+)
+from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
+from deformable_manipulation.interruption import exit_status, interruptible
+
+NAME = "benchmark"
+DOCUMENT = Path("docs") / "benchmarks.md"
+EPILOG = """examples:
+  benchmark rod                                  tables on the terminal
+  benchmark rod --output results                 and as JSON, CSV and Markdown
+  benchmark qp --quick                           fewer and shorter repetitions
+  benchmark rod --update-docs                    and in docs/benchmarks.md, with the machine
+  benchmark --install-rivals                     make the other libraries' environment
+
+Leave the machine alone while it measures. docs/benchmarks.md tells how it is done.
+exit status: 0 measured, and written where asked for; 1 not (the reason is on stderr); 2 wrong usage
+"""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit status."""
+    arguments = _parse(argv)
+    with interruptible():
+        try:
+            if arguments.install_rivals:
+                install(arguments.rivals)
+            if arguments.subject:
+                _measure(arguments)
+        except (DocumentError, RuntimeError) as error:
+            # RuntimeError: no environment, or a simulation that broke down.
+            return _fail(str(error))
+        except OSError as error:
+            return _fail(f"cannot write the results: {error}")
+        except ImportError as error:
+            return _fail(f"cannot measure {arguments.subject}: {error}")
+        except KeyboardInterrupt as interrupt:
+            return exit_status(interrupt)
+    return 0
+
+
+def _fail(message: str) -> int:
+    print(f"{NAME}: {message}", file=sys.stderr)
+    return 1
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    subjects = "\n".join(f"  {name:10} {subject.summary}" for name, subject in SUBJECTS.items())
+    parser = argparse.ArgumentParser(
+        prog=NAME,
+        description="Measure how fast the package is, beside other libraries on the same work.\n\n"
+        "subjects:\n" + subjects,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("subject", nargs="?", choices=list(SUBJECTS), help="what is measured")
+    parser.add_argument("--quick", action="store_true", help="a few short repetitions, for a look")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="write JSON, CSV and Markdown into a folder"
+    )
+    parser.add_argument(
+        "--update-docs",
+        metavar="FILE",
+        type=Path,
+        nargs="?",
+        const=checkout() / DOCUMENT,
+        help=f"put the tables into a document, between its markers (default: {DOCUMENT})",
+    )
+    parser.add_argument(
+        "--rivals",
+        metavar="DIR",
+        type=Path,
+        default=default_environment(),
+        help="virtual environment of the other libraries (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--install-rivals", action="store_true", help="make that environment, then go on"
+    )
+    arguments = parser.parse_args(argv)
+    if not (arguments.subject or arguments.install_rivals):
+        parser.error(f"name a subject ({', '.join(SUBJECTS)}) or give --install-rivals")
+    return arguments
+
+
+def _measure(arguments: argparse.Namespace) -> None:
+    subject = SUBJECTS[arguments.subject]
+    # Taken before: what is measured adds to the load.
+    machine = describe_machine(subject.libraries)
+    _warn(load())
+    request = Request(arguments.quick, arguments.rivals, _say)
+    report = Report(arguments.subject, subject.measure(request), machine)
+    for table in report.tables:
+        print("\n" + table.terminal())
+    if arguments.output:
+        for path in report.write(arguments.output):
+            print(path)
+    if arguments.update_docs:
+        report.update(arguments.update_docs)
+        print(arguments.update_docs)
+
+
+def _warn(value: float) -> None:
+    warning = load_warning(value)
+    if warning:
+        print(f"{NAME}: {warning}", file=sys.stderr)
+
+
+def _say(what: str) -> None:
+    print(f"{NAME}: {what}", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

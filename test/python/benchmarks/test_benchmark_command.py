@@ -1,0 +1,138 @@
+"""The command as it is called, with short measurements; no speed is tested."""
+
+import contextlib
+import csv
+import io
+import json
+import math
+import shutil
+from pathlib import Path
+
+import pytest
+
+from deformable_manipulation.benchmarks.machine import BUSY, describe_machine, load_warning
+from deformable_manipulation.benchmarks.rivals.catalogue import RIVALS
+from deformable_manipulation.benchmarks.subject import SUBJECTS
+from deformable_manipulation.commands.benchmark import main
+
+DOCUMENT = Path(__file__).parents[3] / "docs" / "benchmarks.md"
+
+
+class RodRun:
+    """What a run of the subject ``rod`` left, without the other libraries."""
+
+    def __init__(self, folder):
+        self.output = folder / "results"
+        self.document = folder / "benchmarks.md"
+        shutil.copy(DOCUMENT, self.document)
+        arguments = ["rod", "--quick", "--rivals", str(folder / "nowhere")]
+        arguments += ["--output", str(self.output), "--update-docs", str(self.document)]
+        shown, said = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(said):
+            self.status = main(arguments)
+        self.shown, self.said = shown.getvalue(), said.getvalue()
+        self.data = json.loads((self.output / "rod.json").read_text(encoding="utf-8"))
+
+    def rows(self, table):
+        return self.data["tables"][table]["rows"]
+
+
+@pytest.fixture(scope="module")
+def rod_run(tmp_path_factory):
+    return RodRun(tmp_path_factory.mktemp("rod"))
+
+
+def test_rod_measures_every_combination(rod_run):
+    assert rod_run.status == 0
+    assert {(row["solver"], row["copies"]) for row in rod_run.rows("substep")} == {
+        (solver, copies) for solver in ("direct", "gauss_seidel") for copies in (1, 4, 8, 13)
+    }
+    assert {row["copies"] for row in rod_run.rows("equilibrium")} == {1, 7}
+    for name in ("substep", "equilibrium"):
+        for row in rod_run.rows(name):
+            assert 0.0 < row["minimum_us"] <= row["median_us"] < math.inf
+    assert "One substep" in rod_run.shown and str(rod_run.output / "rod.json") in rod_run.shown
+    assert "direct, 28 segments, 8 copies" in rod_run.said
+
+
+def test_rod_writes_what_it_measured(rod_run):
+    machine = rod_run.data["machine"]
+    assert machine["processor"] and machine["compiler"] != "unknown"
+    with open(rod_run.output / "rod_substep.csv", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["median_us"]) for row in rows] == [
+        row["median_us"] for row in rod_run.rows("substep")
+    ]
+    markdown = (rod_run.output / "rod.md").read_text(encoding="utf-8")
+    assert markdown in rod_run.document.read_text(encoding="utf-8")
+
+
+def test_libraries_that_are_not_installed_have_no_numbers(rod_run):
+    rows = rod_run.rows("comparison")
+    missing = [row for row in rows if row["library"] != "this package"]
+    assert len(missing) == len(RIVALS)
+    for row in missing:
+        assert "not installed: benchmark --install-rivals" in row["remark"]
+        assert not any(isinstance(value, float) for value in row.values())
+    own = [row for row in rows if row["library"] == "this package"]
+    assert own and all(abs(row["error_percent"]) < 0.1 for row in own)
+
+
+def test_qp_end_to_end(tmp_path, capsys):
+    assert main(["qp", "--quick", "--output", str(tmp_path)]) == 0
+    rows = json.loads((tmp_path / "qp.json").read_text())["tables"]["latency"]["rows"]
+    solved = {(row["problems"], row["solver"]): row["solved"] for row in rows}
+    for problems in ("feasible", "infeasible"):
+        assert solved[problems, "safety filter"] == solved[problems, "quadprog, soft"] == 100.0
+    assert solved["infeasible", "quadprog, hard"] == solved["infeasible", "qpsolvers, hard"] == 0.0
+    assert all(row["minimum_us"] <= row["median_us"] <= row["p99_us"] for row in rows)
+    assert "safety filter" in capsys.readouterr().out
+
+
+def test_the_page_has_a_place_for_every_subject():
+    text = DOCUMENT.read_text(encoding="utf-8")
+    for subject in SUBJECTS:
+        for place in ("begin", "end"):
+            assert text.count(f"<!-- benchmark {subject}: {place} -->") == 1
+
+
+def test_a_page_without_a_place_is_an_error(tmp_path, capsys):
+    page = tmp_path / "page.md"
+    page.write_text("# Page\n")
+    assert main(["qp", "--quick", "--update-docs", str(page)]) == 1
+    assert "benchmark qp: begin" in capsys.readouterr().err
+    assert page.read_text() == "# Page\n"
+
+
+def test_results_that_cannot_be_written_are_an_error(tmp_path, capsys):
+    file = tmp_path / "file"
+    file.write_text("")
+    assert main(["qp", "--quick", "--output", str(file)]) == 1
+    assert "cannot write" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("wrong", [[], ["cloth"], ["rod", "--fast"], ["--quick"]])
+def test_wrong_usage(wrong, capsys):
+    with pytest.raises(SystemExit) as exit:
+        main(wrong)
+    assert exit.value.code == 2
+    assert "usage: benchmark" in capsys.readouterr().err
+
+
+def test_help_tells_the_subjects(capsys):
+    with pytest.raises(SystemExit) as exit:
+        main(["--help"])
+    assert exit.value.code == 0
+    shown = capsys.readouterr().out
+    assert all(subject in shown for subject in SUBJECTS) and "exit status" in shown
+
+
+def test_the_machine_is_described():
+    described = describe_machine(["numpy"])
+    assert all(described[key] for key in ("processor", "cores", "system", "compiler", "numpy"))
+    assert float(described["load before"]) >= 0.0
+
+
+def test_a_busy_machine_is_warned_about():
+    assert load_warning(0.0) == ""
+    assert "3.20" in load_warning(3.2) and load_warning(BUSY)
