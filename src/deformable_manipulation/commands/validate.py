@@ -1,0 +1,118 @@
+"""Compares the simulated rod with rod theory and writes a page of the results."""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import Dict, Optional, Sequence
+
+from deformable_manipulation.interruption import exit_status, interruptible
+
+NAME = "validate"
+PAGE = "validation.md"
+IMAGES = "images"
+CASE_NAMES = (
+    "hanging",
+    "cantilever",
+    "spatial",
+    "twist",
+    "free",
+    "holds",
+    "convergence",
+    "motion",
+    "wrenches",
+)
+DESCRIPTION = """Compare the simulated rod with independent solutions of rod theory: shapes,
+reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
+EPILOG = """examples:
+  validate                               docs/validation.md, some minutes
+  validate --quick                       fewer segments, less than a minute
+  validate --case hanging --case twist   two cases alone
+
+exit status: 0 all within their tolerance, 1 one is not or a file cannot be written, 2 wrong usage
+"""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit status."""
+    arguments = _parse(argv)
+    partial = arguments.quick or arguments.case
+    folder = arguments.output or Path("output/validation" if partial else "docs")
+    names = [name for name in CASE_NAMES if name in (arguments.case or CASE_NAMES)]
+    with interruptible():
+        try:
+            results = _run_all(names, arguments.quick)
+            path = _write(results, folder)
+        except OSError as error:
+            print(f"{NAME}: cannot write the results: {error}", file=sys.stderr)
+            return 1
+        except KeyboardInterrupt as interrupt:
+            return exit_status(interrupt)
+    missed = [check for result in results.values() for check in result.checks if not check.passed]
+    for check in missed:
+        print(
+            f"{NAME}: missed: {check.quantity}: {check.error:.3g} {check.error_unit}, "
+            f"tolerance {check.tolerance:.3g} {check.error_unit}",
+            file=sys.stderr,
+        )
+    print(f"written to {path}")
+    return 1 if missed else 0
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog=NAME,
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="folder of the page (default: docs; output/validation for --quick and --case)",
+    )
+    parser.add_argument(
+        "--case",
+        metavar="NAME",
+        action="append",
+        choices=CASE_NAMES,
+        help="run this case alone; can be given several times: " + ", ".join(CASE_NAMES),
+    )
+    parser.add_argument("--quick", action="store_true", help="fewer segments, substeps and cases")
+    return parser.parse_args(argv)
+
+
+def _run_all(names: Sequence[str], quick: bool) -> Dict[str, object]:
+    # Imported late: SciPy and the simulation take longer to load than a wrong argument to be told.
+    from deformable_manipulation.validation.cases import run_case
+
+    results = {}
+    for number, name in enumerate(names, start=1):
+        print(f"{NAME}: {name} ({number} of {len(names)})", file=sys.stderr, end=" ", flush=True)
+        start = time.perf_counter()
+        results[name] = run_case(name, quick)
+        checks = results[name].checks
+        passed = sum(check.passed for check in checks)
+        taken = time.perf_counter() - start
+        print(f"{passed} of {len(checks)} passed, {taken:.0f} s", file=sys.stderr)
+    return results
+
+
+def _write(results, folder: Path) -> Path:
+    from deformable_manipulation.validation.figures import draw, save
+    from deformable_manipulation.validation.report import report
+
+    (folder / IMAGES).mkdir(parents=True, exist_ok=True)
+    links = {}
+    for name, result in results.items():
+        if result.panels:
+            links[name] = f"{IMAGES}/validation_{name}.png"
+            save(draw(result), folder / links[name])
+    path = folder / PAGE
+    path.write_text(report(results, links), encoding="utf-8")
+    return path
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""The simulation of rods held against independent solutions of rod theory."""

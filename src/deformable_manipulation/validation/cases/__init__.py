@@ -1,0 +1,37 @@
+"""The cases of the validation, by name; each is a function of ``quick`` that runs it."""
+
+from typing import Callable, Dict
+
+from deformable_manipulation.validation.cases import (
+    cantilever,
+    convergence,
+    free,
+    hanging,
+    holds,
+    motion,
+    spatial,
+    twist,
+    wrenches,
+)
+from deformable_manipulation.validation.result import CaseResult, Check
+
+CASES: Dict[str, Callable[[bool], CaseResult]] = {
+    "hanging": hanging.run,
+    "cantilever": cantilever.run,
+    "spatial": spatial.run,
+    "twist": twist.run,
+    "free": free.run,
+    "holds": holds.run,
+    "convergence": convergence.run,
+    "motion": motion.run,
+    "wrenches": wrenches.run,
+}
+
+
+def run_case(name: str, quick: bool) -> CaseResult:
+    """Run a case; one that cannot be brought to rest is a result that does not pass."""
+    try:
+        return CASES[name](quick)
+    except RuntimeError as error:
+        failure = Check(f"could not be run: {error}", None, float("nan"), "", float("inf"), 0.0, "")
+        return CaseResult(name.capitalize(), "", [failure])
