@@ -20,14 +20,15 @@ class LeaderPath:
         waypoints: sequence of objects with ``time`` [s] and ``position`` (3,) [m].
 
     Raises:
-        ValueError: no waypoint, a number that is not finite, or times that do not increase.
+        ValueError: no waypoint, a position that is not three numbers, a number that is not finite,
+            or times that do not increase.
     """
 
     def __init__(self, waypoints):
         if not waypoints:
             raise ValueError("leader.waypoints: empty, at least one waypoint is needed")
         self._times = np.array([waypoint.time for waypoint in waypoints], dtype=float)
-        self._positions = np.array([waypoint.position for waypoint in waypoints], dtype=float)
+        self._positions = _positions(waypoints)
         if not (np.isfinite(self._times).all() and np.isfinite(self._positions).all()):
             raise ValueError("leader.waypoints: all times and positions have to be finite numbers")
         if (np.diff(self._times) <= 0.0).any():
@@ -71,6 +72,16 @@ class LeaderPath:
         s = (t - self._times[i])[..., None] / duration
         change = self._positions[i + 1] - self._positions[i]
         return s, duration, self._positions[i], change, self._velocities[i], self._velocities[i + 1]
+
+
+def _positions(waypoints):
+    for index, waypoint in enumerate(waypoints):
+        if np.shape(waypoint.position) != (3,):
+            raise ValueError(
+                f"leader.waypoints[{index}].position: {waypoint.position}, allowed are three "
+                "numbers [m]"
+            )
+    return np.array([waypoint.position for waypoint in waypoints], dtype=float)
 
 
 def _waypoint_velocities(times, positions):

@@ -70,7 +70,7 @@ def test_the_rope_would_go_into_the_ground_without_it(unsafe):
 
 
 def test_exact_gradients_keep_the_rope_off_the_ground():
-    records = run(load_scenario(SHORT_ROPE, ["controller.jacobian=equilibrium"]))
+    records = run(load_scenario(SHORT_ROPE, [("controller.jacobian", "equilibrium")]))
     assert all(record.decisions["assistant_1"].exact_jacobian for record in records)
     offset = load_scenario(SHORT_ROPE).controller.collision.offset
     assert offset - TOLERATED <= lowest_distance(records) < offset + 0.02

@@ -2,14 +2,16 @@
 """What cannot work leaves with an exit status that is not zero, and says why."""
 
 import os
+import signal
 import socket
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from xmlrpc.client import ServerProxy
 
 import rospy
-from observed_run import DEADLINE, PACKAGE, run_tests
+from observed_run import DEADLINE, PACKAGE, poll, run_tests
 from roslib.packages import find_node
 
 from deformable_manipulation.scenario import load_scenario, scenario_to_mapping
@@ -41,6 +43,28 @@ def free_port():
     with socket.socket() as free:
         free.bind(("", 0))
         return free.getsockname()[1]
+
+
+def start_launch(*arguments):
+    """run.launch on a master of its own: the process, and the master's address."""
+    port = free_port()
+    master = "http://localhost:{}".format(port)
+    command = ["roslaunch", "--port", str(port), PACKAGE, "run.launch", "rviz:=false", *arguments]
+    return start(command, ROS_MASTER_URI=master), master
+
+
+def kill_node(name, master):
+    """Kill a node as soon as it is there."""
+
+    def process():
+        try:
+            uri = ServerProxy(master).lookupNode("/test", name)[2]
+            return uri and ServerProxy(uri).getPid("/test")[2]
+        except OSError:
+            return None  # no master, or no answer yet
+
+    poll(process, name)
+    os.kill(process(), signal.SIGKILL)
 
 
 class RefusalsTest(unittest.TestCase):
@@ -83,17 +107,10 @@ class RefusalsTest(unittest.TestCase):
                     "assistant_1",
                 )
 
-    def assert_launch_refuses(self, path, *texts):
-        """A launch with this scenario file ends before any node starts."""
-        port = free_port()
-        command = ["roslaunch", "--port", str(port), PACKAGE, "run.launch", "rviz:=false"]
-        output = self.assert_refuses(
-            start(
-                command + ["scenario:={}".format(path)],
-                ROS_MASTER_URI="http://localhost:{}".format(port),
-            ),
-            *texts
-        )
+    def assert_launch_refuses(self, path, *texts, arguments=()):
+        """A launch with this scenario file and arguments ends before any node starts."""
+        launch, _ = start_launch("scenario:={}".format(path), *arguments)
+        output = self.assert_refuses(launch, *texts)
         self.assertNotIn("started with pid", output)
 
     def assert_launch_refuses_changes(self, changes, *texts):
@@ -123,6 +140,53 @@ class RefusalsTest(unittest.TestCase):
 
     def test_a_launch_without_its_scenario_file(self):
         self.assert_launch_refuses("/nowhere/missing.yaml", "/nowhere/missing.yaml")
+
+    def test_a_launch_whose_arguments_do_not_fit_the_scenario(self):
+        self.assert_launch_refuses(
+            SHORT_ROPE,
+            "'assistant_7'",
+            "did you mean 'assistant_1'?",
+            "'boss'",
+            "leader:=leader",
+            "'/nowhere/bags' \u2014 does not exist",
+            arguments=["assistants:=assistant_7", "lockstep:=true", "leader:=boss", "record:=true",
+                       "output:=/nowhere/bags"],
+        )
+
+    def test_a_lock_step_launch_without_one_of_its_assistants(self):
+        two_assistants = SHORT_ROPE.with_name("two_assistants.yaml")
+        self.assert_launch_refuses(
+            two_assistants,
+            'give assistants:="middle_assistant end_assistant"',
+            arguments=["assistants:=end_assistant", "lockstep:=true"],
+        )
+
+    def test_a_lock_step_run_ends_when_a_node_has_gone(self):
+        for name in ("assistant_1_controller", "minimum_distance", "leader"):
+            launch, master = start_launch(
+                "scenario:={}".format(SHORT_ROPE), "lockstep:=true", "stop_at_end:=false"
+            )
+            with self.subTest(node=name), launch:
+                kill_node("/" + name, master)
+                output, _ = launch.communicate(timeout=DEADLINE)
+                self.assertIn("REQUIRED process [{}-".format(name), output)
+
+    def test_names_and_values_with_blanks_are_no_mistake(self):
+        with tempfile.TemporaryDirectory(prefix="two words ") as folder:
+            path = Path(folder) / "a rope.yaml"
+            path.write_text(SHORT_ROPE.read_text())
+            launch, _ = start_launch(
+                "scenario:={}".format(path),
+                'set:=agents.assistant_1.start=[0.0, 1.4, 1.35] name="a b" simulation.duration=1',
+                "lockstep:=true",
+                "record:=true",
+                "output:={}".format(folder),
+            )
+            with launch:
+                output, _ = launch.communicate(timeout=DEADLINE)
+            self.assertIn("End of the scenario after 1.00 s", output)
+            bags = list(Path(folder).glob("a rope_*.bag"))
+            self.assertEqual(len(bags), 1, output)
 
     def test_a_launch_with_a_file_that_is_not_yaml(self):
         self.assert_launch_refuses_changes([("object:", "object: [")], "wrong.yaml")

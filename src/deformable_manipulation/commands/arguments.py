@@ -1,7 +1,11 @@
 """Arguments that several commands have in common."""
 
 import argparse
-from typing import Tuple
+import re
+from typing import List, Tuple
+
+# Where the next key of several begins: values may have blanks, too.
+_NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
 
 
 def add_scenario_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,3 +31,11 @@ def override(text: str) -> Tuple[str, str]:
             f"'{text}' is not of the form key.path=value, as in controller.gain=2"
         )
     return key.strip(), value
+
+
+def overrides(text: str) -> List[Tuple[str, str]]:
+    """Split several ``key.path=value``, separated by blanks; values may have blanks in them.
+
+    Raises argparse.ArgumentTypeError where one is not of that form.
+    """
+    return [override(item) for item in _NEXT_KEY.split(text.strip()) if item]

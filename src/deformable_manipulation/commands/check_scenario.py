@@ -6,6 +6,10 @@ from itertools import combinations
 from typing import Iterator, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.launch_arguments import (
+    add_launch_arguments,
+    launch_problems,
+)
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
@@ -27,7 +31,10 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     """Run the command; returns its exit status."""
     arguments = _parser().parse_args(argv)
     try:
-        scenario = load_scenario(arguments.scenario, arguments.set)
+        scenario = load_scenario(arguments.scenario, arguments.set + arguments.sets)
+        problems = list(launch_problems(arguments, scenario))
+        if problems:
+            raise ScenarioError(problems, "launch arguments")
     except ScenarioError as error:
         print(error, file=sys.stderr)
         return 1
@@ -53,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="print the scenario as YAML, with everything filled in, and nothing else",
     )
+    add_launch_arguments(parser)
     return parser
 
 

@@ -1,6 +1,7 @@
 """What an assistant's controller sees of one state."""
 
 import math
+import numbers
 from dataclasses import dataclass
 from typing import Optional
 
@@ -39,10 +40,45 @@ def find_fault(observation, agents):
         A sentence that names the field, or an empty string for a sound observation.
     """
     return (
-        _wrong_shape(observation, agents)
+        _wrong_type(observation)
+        or _wrong_shape(observation, agents)
         or _not_finite(observation)
         or _wrong_index(observation, agents)
     )
+
+
+# Kinds of numpy's numbers.
+_NUMBERS, _WHOLE_NUMBERS, _FLAGS = "fiu", "iu", "b"
+
+
+def _wrong_type(observation):
+    if not isinstance(observation, Observation):
+        return f"it got {type(observation).__name__}, not an Observation"
+    if not isinstance(observation.time, numbers.Real):
+        return f"time of the state is {type(observation.time).__name__}, expected a number"
+    distances = observation.distances
+    if not isinstance(distances, Distances):
+        return f"distances of the state is {type(distances).__name__}, expected Distances"
+    wanted = (
+        ("positions", observation.positions, _NUMBERS),
+        ("points", observation.points, _NUMBERS),
+        ("displaced_agents", observation.displaced_agents, _WHOLE_NUMBERS),
+        ("displacements", observation.displacements, _NUMBERS),
+        ("ready", observation.ready, _FLAGS),
+        ("distances.minimum", distances.minimum, _NUMBERS),
+        ("distances.offsets", distances.offsets, _WHOLE_NUMBERS),
+        ("distances.distance", distances.distance, _NUMBERS),
+        ("distances.normal", distances.normal, _NUMBERS),
+        ("distances.vertices", distances.vertices, _WHOLE_NUMBERS),
+        ("distances.weights", distances.weights, _NUMBERS),
+        ("distances.obstacle_velocity", distances.obstacle_velocity, _NUMBERS),
+    )
+    for name, value, kinds in wanted:
+        if not isinstance(value, np.ndarray):
+            return f"{name} of the state is {type(value).__name__}, expected an array"
+        if value.dtype.kind not in kinds:
+            return f"{name} of the state is an array of {value.dtype}"
+    return ""
 
 
 def _wrong_shape(observation, agents):

@@ -1,8 +1,9 @@
 """Rings of polygons: reading them from CSV files and checking that they bound a region."""
 
 import math
-from pathlib import Path
 from typing import Iterable, List, Optional, Sequence, Tuple
+
+from deformable_manipulation.text_files import TextFileError, read_text
 
 Ring = Tuple[Tuple[float, float], ...]
 
@@ -23,11 +24,9 @@ def read_ring(path) -> Ring:
     Raises PolygonError, with line numbers where lines are wrong.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise PolygonError("{} cannot be read: {}".format(path, error.strerror)) from error
-    except ValueError as error:  # not UTF-8, or a path with a null character
-        raise PolygonError("{} cannot be read: {}".format(path, error)) from error
+        text = read_text(path)
+    except TextFileError as error:
+        raise PolygonError("{} {}".format(path, error)) from error
     points, faults = _parse_rows(text)
     if faults:
         shown = faults[:_REPORTED_LINES]

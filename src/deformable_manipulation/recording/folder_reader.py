@@ -14,6 +14,7 @@ from deformable_manipulation.recording.run_data import (
     make_assistant_series,
     offset_of,
 )
+from deformable_manipulation.stretch import largest_stretch
 
 STATUS_SUFFIX = ".status"  # only assistants have a status
 
@@ -28,7 +29,9 @@ def read_folder(folder: Path) -> RunData:
     agents = [name[: -len(STATUS_SUFFIX)] for name in header if name.endswith(STATUS_SUFFIX)]
     wanted = ["time", "distance"]
     wanted += [f"{agent}.{column}" for agent in agents for column in SERIES_COLUMNS]
-    columns = _select_columns(path, header, rows, wanted)
+    # Folders of earlier versions have no stretch.
+    recorded_stretch = [name for name in ("stretch",) if name in header]
+    columns = _select_columns(path, header, rows, wanted + recorded_stretch)
     assistants = tuple(
         make_assistant_series(
             agent,
@@ -45,6 +48,7 @@ def read_folder(folder: Path) -> RunData:
         distance=columns["distance"],
         offset=offset_of(assistants),
         assistants=assistants,
+        max_stretch=largest_stretch(columns.get("stretch", np.empty(0))),
     )
 
 

@@ -1,5 +1,6 @@
 """A recorded run as arrays, the same whether read from a run folder or from a bag."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Mapping, Optional, Tuple
@@ -42,6 +43,7 @@ class RunData:
     distance: np.ndarray  # (T,) m, signed; inf: no obstacle
     offset: Optional[float]  # m, distance to keep; None: no controller has computed it
     assistants: Tuple[AssistantSeries, ...]
+    max_stretch: Optional[float] = None  # largest relative change of length; None: not recorded
     notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
 
 
@@ -53,7 +55,7 @@ def read_run(path, namespace: Optional[str] = None) -> RunData:
     Raises RunDataError: there is no run, or it cannot be read.
     """
     path = Path(path)
-    if not path.exists():
+    if not os.path.exists(str(path)):  # unlike Path.exists also for names too long for any file
         raise RunDataError(f"{path} does not exist")
     # Imported late: each needs only its own file format's library.
     if (path / run_files.TIMESERIES).is_file():

@@ -24,13 +24,13 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
 
     Raises RecordingError: the folder holds a run already, or cannot be made or changed.
     """
-    present = [directory / name for name in ALL if (directory / name).exists()]
-    if present and not overwrite:
-        raise RecordingError(
-            "{} holds a run already ({}); choose another folder, or overwrite it with "
-            "--force".format(directory, ", ".join(path.name for path in present))
-        )
     try:
+        present = [directory / name for name in ALL if (directory / name).exists()]
+        if present and not overwrite:
+            raise RecordingError(
+                "{} holds a run already ({}); choose another folder, or overwrite it with "
+                "--force".format(directory, ", ".join(path.name for path in present))
+            )
         directory.mkdir(parents=True, exist_ok=True)
         for path in present:
             path.unlink()

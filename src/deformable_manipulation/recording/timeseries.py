@@ -17,7 +17,7 @@ def vector_columns(name: str) -> Tuple[str, ...]:
     return tuple(f"{name}_{axis}" for axis in AXES)
 
 
-RUN_COLUMNS = ("cycle", "time", "distance")
+RUN_COLUMNS = ("cycle", "time", "distance", "stretch")
 AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
 ASSISTANT_COLUMNS = (
     vector_columns("target")
@@ -53,6 +53,7 @@ class CycleRecord:
     cycle: int
     time: float  # s
     distance: float  # m, signed minimum of the object itself; inf: no obstacle
+    stretch: float  # relative change of length of the object itself, where that is largest
     positions: np.ndarray  # (A, 3) m, held points
     velocities: np.ndarray  # (A, 3) m/s, the velocities that led to this state
     points: np.ndarray  # (P, 3) m
@@ -86,7 +87,7 @@ class TimeSeries:
         if count == len(self._rows):
             self._allocate(2 * count)
         # One list and one assignment: many small assignments to an array cost twice as much.
-        row = [record.cycle, record.time, record.distance]
+        row = [record.cycle, record.time, record.distance, record.stretch]
         for position, velocity in zip(record.positions.tolist(), record.velocities.tolist()):
             row += position
             row += velocity

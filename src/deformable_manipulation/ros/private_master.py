@@ -1,8 +1,11 @@
 """A ROS master of one's own beside whatever runs on the machine."""
 
 import contextlib
+import functools
+import http.client
 import os
 import socket
+import xmlrpc.client
 from pathlib import Path
 
 import rosgraph
@@ -42,7 +45,11 @@ def private_master(directory):
             program = Program("roscore", command, Path(directory) / "roscore.log")
             stack.enter_context(program)
             try:
-                program.wait_until(_is_ready, _TIMEOUT, "the ROS master did not answer yet")
+                program.wait_until(
+                    functools.partial(_is_ready, program),
+                    _TIMEOUT,
+                    "the ROS master did not answer yet",
+                )
                 break
             except ProgramError:
                 if attempt == _ATTEMPTS - 1:
@@ -50,12 +57,22 @@ def private_master(directory):
         yield program
 
 
-def _is_ready():
-    """Whether the master answers, and roscore has done with it."""
+def _is_ready(roscore):
+    """Whether the master of this roscore answers, and roscore has done with it.
+
+    A process that was faster in taking the port may be a node, or even the master of another run.
+    """
+    master = rosgraph.Master("/probe")
     try:
-        return rosgraph.Master("/probe").lookupNode("/rosout")
-    except (rosgraph.MasterException, OSError):
+        return _parent(master.getPid()) == roscore.pid and master.lookupNode("/rosout")
+    except (rosgraph.MasterException, OSError, http.client.HTTPException, xmlrpc.client.Error):
         return False
+
+
+def _parent(pid):
+    """The parent of a process."""
+    status = Path(f"/proc/{pid}/status").read_text()
+    return int(status.partition("PPid:")[2].split()[0])
 
 
 def _free_port():

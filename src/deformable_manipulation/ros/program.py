@@ -57,6 +57,11 @@ class Program:
             except OSError as error:
                 raise ProgramError(f"{name} cannot be started: {error}") from error
 
+    @property
+    def pid(self):
+        """Its process id."""
+        return self._process.pid
+
     def check(self):
         """Raise ProgramError, or ProgramCrashed, if the program has ended by itself."""
         status = self._process.poll()

@@ -9,6 +9,7 @@ import rosgraph
 import yaml
 
 from deformable_manipulation.ros.program import Program, ProgramError
+from deformable_manipulation.text_files import TextFileError, read_text
 
 _NODE = "/snapshot_view"
 _FRAME_RATE = 10  # Hz, what is still needs no more
@@ -26,9 +27,11 @@ def read_configuration(path, view, size):
         ProgramError: the file cannot be read or has no view of that name.
     """
     try:
-        configuration = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        configuration = yaml.safe_load(read_text(path))
         return yaml.safe_dump(bare_view(configuration, view, size))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError) as error:
+    except TextFileError as error:
+        raise ProgramError(f"{path} {error}") from error
+    except (yaml.YAMLError, KeyError, TypeError) as error:
         raise ProgramError(f"{path} is no RViz configuration: {error!r}") from error
 
 

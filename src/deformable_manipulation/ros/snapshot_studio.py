@@ -86,8 +86,13 @@ class SnapshotStudio:
 
     def _await_markers(self, rviz, publishers, timeout):
         with contextlib.closing(self._run.watch_markers()) as watch:
-            rviz.wait_until(
-                lambda: not watch.missing(publishers),
+
+            def are_drawn():
+                rviz.check()
+                return not watch.missing(publishers)
+
+            self._run.wait_until(
+                are_drawn,
                 timeout,
-                lambda: f"nothing was rendered: {watch.missing(publishers)} did not draw the state",
+                lambda: f"nothing was rendered: {watch.describe(watch.missing(publishers))}",
             )

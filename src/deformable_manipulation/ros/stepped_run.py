@@ -90,6 +90,10 @@ class SteppedRun:
             if progress is not None:
                 progress((cycle - start) / cycles)
 
+    def wait_until(self, condition, timeout, complaint):
+        """Wait for something that the run does; see Program.wait_until."""
+        return self._program.wait_until(condition, timeout, complaint)
+
     def watch_markers(self):
         """MarkerWatch for the present state."""
         return MarkerWatch(self._stamp)
@@ -124,6 +128,7 @@ class MarkerWatch:
     def __init__(self, stamp):
         self._stamp = stamp
         self._redraws = {}
+        self._drawn = {}  # stamp of the newest marker of each node
         self._lock = threading.Lock()
         self._subscriber = rospy.Subscriber(self.topic, MarkerArray, self._count, queue_size=100)
 
@@ -132,12 +137,28 @@ class MarkerWatch:
         with self._lock:
             return [node for node in publishers if self._redraws.get(node, 0) < _REDRAWS]
 
+    def describe(self, nodes):
+        """What these nodes have drawn instead, for a message."""
+        with self._lock:
+            return ", ".join(
+                f"{node} drew {self._state_text(self._drawn.get(node))}" for node in nodes
+            )
+
+    def _state_text(self, stamp):
+        if stamp is None:
+            return "nothing"
+        if stamp == self._stamp:
+            return "the state, but not again"
+        return f"another state, {(stamp - self._stamp).to_sec():+.3f} s away"
+
     def close(self):
         """Stop watching."""
         self._subscriber.unregister()
 
     def _count(self, array):
-        if any(marker.header.stamp == self._stamp for marker in array.markers):
-            node = array._connection_header["callerid"]
-            with self._lock:
+        node = array._connection_header["callerid"]
+        stamps = {marker.header.stamp for marker in array.markers}
+        with self._lock:
+            self._drawn[node] = max(stamps, default=None)
+            if self._stamp in stamps:
                 self._redraws[node] = self._redraws.get(node, 0) + 1

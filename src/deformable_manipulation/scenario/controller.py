@@ -1,6 +1,7 @@
 """The ``controller`` section."""
 
 from deformable_manipulation.scenario.readers import (
+    LARGEST_COORDINATE,
     Array,
     Auto,
     Choice,
@@ -16,6 +17,9 @@ from deformable_manipulation.scenario.spec import (
     OverstretchSpec,
     ProximitySpec,
 )
+
+# Less would be rounding in the differences between copies, one of which may be at a quarter of it.
+_SMALLEST_PERTURBATION = 1e-5  # m
 
 _ALPHA = Array(2, Number("1/s", above=0.0), "[slope for h >= 0, slope for h < 0]")
 
@@ -41,9 +45,9 @@ class QpSolver:
 COLLISION = Section(
     CollisionSpec,
     {
-        "offset": Number("m", at_least=0.0),
+        "offset": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "alpha": _ALPHA,
-        "band": Number("m", at_least=0.0),
+        "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "gradient": Choice("features", "minimum"),
     },
 )
@@ -64,7 +68,7 @@ CONTROLLER = Section(
         "weights": vector("1", above=0.0),
         "max_velocity": Number("m/s", above=0.0),
         "max_acceleration": Number("m/s^2", above=0.0),
-        "perturbation": vector("m", nonzero=True),
+        "perturbation": vector("m", smallest_size=_SMALLEST_PERTURBATION),
         "jacobian": Choice("perturbed_copies", "equilibrium"),
         "differences": Choice("central", "forward"),
         "feedforward": Flag(),

@@ -7,6 +7,7 @@ from typing import Dict, Optional, Tuple
 import yaml
 
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
+from deformable_manipulation.text_files import TextFileError, read_text
 
 KeyPath = Tuple[str, ...]
 
@@ -24,15 +25,11 @@ class Document:
 
 
 def read_document(path: Path) -> Document:
-    """Read and parse a YAML file; raises ScenarioError (unreadable, syntax, empty)."""
+    """Read and parse a YAML file; raises ScenarioError (unreadable, too large, syntax, empty)."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        problem = Problem("", "cannot be read: {}".format(error.strerror))
-        raise ScenarioError([problem], str(path)) from error
-    except UnicodeDecodeError as error:
-        problem = Problem("", "is not UTF-8 text: {}".format(error))
-        raise ScenarioError([problem], str(path)) from error
+        text = read_text(path)
+    except TextFileError as error:
+        raise ScenarioError([Problem("", str(error))], str(path)) from error
     return parse_document(text, str(path))
 
 

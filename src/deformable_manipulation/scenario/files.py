@@ -72,6 +72,8 @@ def find_scenario(path_or_name: str) -> Path:
     path = Path(path_or_name)
     if os.path.isfile(path):
         return path
+    if os.path.exists(path) and not os.path.isdir(path):
+        raise ScenarioError([Problem("", "is no regular file")], str(path_or_name))
     is_bare_name = len(path.parts) == 1 and path.suffix in ("", ".yaml")
     if not is_bare_name:
         raise ScenarioError([Problem("", "there is no such file")], str(path_or_name))

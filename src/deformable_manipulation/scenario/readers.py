@@ -110,17 +110,17 @@ class Number:
         above: Optional[float] = None,
         at_least: Optional[float] = None,
         at_most: Optional[float] = None,
-        nonzero: bool = False,
+        smallest_size: float = 0.0,
     ):
         self._above, self._at_least, self._at_most = above, at_least, at_most
-        self._nonzero = nonzero
+        self._smallest_size = smallest_size
         self.allowed = "a number{}{}".format(self._bounds(), " [{}]".format(unit) if unit else "")
 
     def _bounds(self) -> str:
         signs = ((" >", self._above), (" >=", self._at_least), (" <=", self._at_most))
         bounds = ["{} {:g}".format(sign, bound) for sign, bound in signs if bound is not None]
-        if self._nonzero:
-            bounds.append(" other than 0")
+        if self._smallest_size:
+            bounds.append(" of size >= {:g}".format(self._smallest_size))
         return " and".join(bounds)
 
     def __call__(self, node: Node) -> float:
@@ -134,7 +134,7 @@ class Number:
             (self._above is None or number > self._above)
             and (self._at_least is None or number >= self._at_least)
             and (self._at_most is None or number <= self._at_most)
-            and not (self._nonzero and number == 0.0)
+            and abs(number) >= self._smallest_size
         )
 
 

@@ -10,6 +10,9 @@ WAYPOINT = Section(Waypoint, {"time": Number("s", at_least=0.0, at_most=1e6),
                               "position": position()})
 
 
+_SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end
+
+
 class Waypoints:
     """A list of waypoints: times increasing, the first at time 0 and at the leader's start."""
 
@@ -37,10 +40,12 @@ def _check_first(node: Node, first: Waypoint) -> None:
 
 def _check_times(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
     for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
-        if waypoint.time <= before.time:
+        if waypoint.time - before.time < _SHORTEST_PIECE:
             node.report.add(
                 node.path + (str(index), "time"),
-                "must be later than the waypoint before ({:g} s)".format(before.time),
+                "must be at least {:g} s later than the waypoint before ({:g} s)".format(
+                    _SHORTEST_PIECE, before.time
+                ),
                 show(waypoint.time),
             )
 

@@ -137,6 +137,47 @@ def test_waits_for_input_of_the_right_shape(scenario, field, value):
     assert decision.status == Status.WAITING and field in decision.text
 
 
+@pytest.mark.parametrize(
+    "field, value",
+    [
+        ("time", None),
+        ("time", "0.1"),
+        ("time", np.zeros(2)),
+        ("positions", None),
+        ("positions", [[0.0, 0.0, 1.0], [0.0, 1.5, 1.0]]),
+        ("points", "points"),
+        ("displacements", np.full((7, 3), "0.1")),
+        ("displacements", np.full((7, 3), None)),
+        ("displaced_agents", np.zeros(7)),
+        ("ready", np.ones(7)),
+        ("distances", None),
+        ("distances.minimum", [0.1] * 7),
+        ("distances.vertices", np.zeros((0, 3))),
+    ],
+)
+def test_waits_for_input_of_the_right_type(scenario, field, value):
+    owner, _, name = field.rpartition(".")
+    observation = observed(scenario)
+    if owner:
+        part = dataclasses.replace(observation.distances, **{name: value})
+        observation = dataclasses.replace(observation, distances=part)
+    else:
+        observation = dataclasses.replace(observation, **{name: value})
+    controller = AssistantController(scenario, "assistant_1")
+    decision = controller.update(observation)
+    assert decision.status == Status.WAITING and field in decision.text
+    np.testing.assert_array_equal(decision.command, 0.0)
+    with pytest.raises(ValueError, match=field):
+        controller.take_reference(observation)
+
+
+@pytest.mark.parametrize("observation", [None, 3, {"time": 0.0}])
+def test_waits_for_an_observation(scenario, observation):
+    decision = AssistantController(scenario, "assistant_1").update(observation)
+    assert decision.status == Status.WAITING
+    assert "not an Observation" in decision.text
+
+
 @pytest.mark.parametrize("safety", [True, False])
 def test_enormous_numbers_never_give_a_command_that_is_not_finite(scenario, safety):
     controller = AssistantController(scenario, "assistant_1", safety=safety)

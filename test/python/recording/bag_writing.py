@@ -66,8 +66,9 @@ class BagWriter:
             for axis, number in zip("xyz", getattr(decision, attribute))
         }
         for field in (
-            "distance h_collision h_overstretch h_proximity leader_drift rows slack_collision "
-            "slack_overstretch slack_proximity solve_time computation_time error_norm enabled"
+            "distance h_collision h_overstretch h_proximity exact_jacobian leader_drift rows "
+            "slack_collision slack_overstretch slack_proximity solve_time computation_time "
+            "error_norm enabled"
         ).split():
             values[field] = getattr(decision, field)
         values.update(status=int(decision.status), status_text="", agent=agent, **changes)

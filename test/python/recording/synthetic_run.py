@@ -78,6 +78,7 @@ def make_record(scenario, cycle, **changes):
         cycle=cycle,
         time=cycle / RATE,
         distance=decisions[names[0]].distance,
+        stretch=1e-6 * (cycle % 7),
         positions=np.arange(3.0 * agents).reshape(agents, 3) + cycle,
         velocities=-np.arange(3.0 * agents).reshape(agents, 3) - cycle,
         points=np.arange(3.0 * POINTS).reshape(POINTS, 3) + 0.1 * cycle,

@@ -96,6 +96,8 @@ def test_time_series_that_is_no_text(run_folder):
 def test_paths_that_hold_no_run(run_folder, tmp_path, capsys):
     assert main([str(tmp_path / "nowhere")]) == 1
     assert "nowhere does not exist" in capsys.readouterr().err
+    assert main([str(tmp_path / ("a" * 300))]) == 1
+    assert "does not exist" in capsys.readouterr().err
     assert main([str(run_folder / "summary.json")]) == 1
     assert "neither a run folder nor a bag" in capsys.readouterr().err
     (tmp_path / "empty").mkdir()

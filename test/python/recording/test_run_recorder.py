@@ -39,7 +39,12 @@ def test_time_series_holds_every_recorded_number(tmp_path):
     for cycle in (0, 17, 29):
         record = make_record(scenario, cycle)
         row = {name: values[cycle] for name, values in table.items()}
-        expected = {"cycle": cycle, "time": record.time, "distance": record.distance}
+        expected = {
+            "cycle": cycle,
+            "time": record.time,
+            "distance": record.distance,
+            "stretch": record.stretch,
+        }
         for index, agent in enumerate(scenario.agents):
             expected.update(vector(f"{agent.name}.position", record.positions[index]))
             expected.update(vector(f"{agent.name}.velocity", record.velocities[index]))
@@ -51,10 +56,10 @@ def test_time_series_holds_every_recorded_number(tmp_path):
             expected.update(vector(f"{name}.jacobian", decision.jacobian))
             expected[f"{name}.error_norm"] = np.linalg.norm(decision.error)
             for scalar in (
-                "h_collision h_overstretch h_proximity leader_drift slack_collision "
+                "h_collision h_overstretch h_proximity exact_jacobian leader_drift slack_collision "
                 "slack_overstretch slack_proximity status rows solve_time"
             ).split():
-                expected[f"{name}.{scalar}"] = getattr(decision, scalar)
+                expected[f"{name}.{scalar}"] = float(getattr(decision, scalar))
         assert row == pytest.approx(expected, rel=1e-11)
 
 
@@ -131,6 +136,7 @@ def test_summary_numbers(scenario, tmp_path):
                 scenario,
                 cycle,
                 distance=distance,
+                stretch=(0.001, -0.02, 0.01, np.nan)[cycle],
                 decisions={"assistant_1": decision},
                 timings=CycleTimings(0.001 * (cycle + 1), 0.002, np.nan),
             )
@@ -163,6 +169,8 @@ def test_summary_numbers(scenario, tmp_path):
         "min_distance": 0.031,
         "offset": OFFSET,
         "min_proximity_margin": 0.5,
+        "max_stretch": 0.02,
+        "shape_valid": False,
         "qp_relaxed": 2,
         "qp_failed": 1,
     }
@@ -229,6 +237,8 @@ def test_a_folder_that_cannot_be_made_is_told_at_the_start(scenario, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(RecordingError, match="cannot record into .*file/run.*choose"):
         RunRecorder(scenario, tmp_path / "file" / "run")
+    with pytest.raises(RecordingError, match="cannot record into .*name too long; choose"):
+        RunRecorder(scenario, tmp_path / ("a" * 300))
 
 
 def test_a_file_that_cannot_be_written_does_not_cost_the_others(scenario, tmp_path, monkeypatch):

@@ -50,6 +50,9 @@ def test_a_file_that_is_no_configuration(tmp_path, text):
         read_configuration(path, None, (640, 400))
 
 
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(ProgramError, match="no RViz configuration: FileNotFoundError"):
-        read_configuration(tmp_path / "x.rviz", None, (640, 400))
+@pytest.mark.parametrize(
+    "path, reason", [("absent.rviz", "No such file"), ("/dev/zero", "no regular file")]
+)
+def test_a_file_that_cannot_be_read(tmp_path, path, reason):
+    with pytest.raises(ProgramError, match=reason):
+        read_configuration(tmp_path / path, None, (640, 400))

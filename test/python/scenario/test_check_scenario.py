@@ -63,3 +63,66 @@ def test_help_shows_examples(capsys):
         main(["--help"])
     assert caught.value.code == 0
     assert "--set controller.gain=2" in capsys.readouterr().out
+
+
+def resolved(path, capsys, *options):
+    assert main([str(path), "--resolved", *options]) == 0
+    return yaml.safe_load(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize(
+    "text, gain, start",
+    [
+        ("", 1.0, [0.0, 1.5, 1.0]),
+        ("controller.gain=2", 2.0, [0.0, 1.5, 1.0]),
+        ("  controller.gain=2 agents.helper.start=[0.0, 1.4, 1.0]\n", 2.0, [0.0, 1.4, 1.0]),
+        ("agents.helper.start=[0.0, 1.4, 1.0]   controller.gain= 2", 2.0, [0.0, 1.4, 1.0]),
+    ],
+)
+def test_several_values_in_one_text(path, capsys, text, gain, start):
+    mapping = resolved(path, capsys, "--sets", text)
+    assert mapping["controller"]["gain"] == gain
+    assert mapping["agents"]["helper"]["start"] == start
+
+
+def test_texts_with_blanks_among_several_values(path, capsys):
+    mapping = resolved(path, capsys, "--sets", 'name="two words" controller.gain=2')
+    assert (mapping["name"], mapping["controller"]["gain"]) == ("two words", 2.0)
+
+
+def test_several_values_that_have_no_key_are_wrong_usage(path, capsys):
+    with pytest.raises(SystemExit) as caught:
+        main([str(path), "--sets", "gain 2"])
+    assert caught.value.code == 2
+    assert "not of the form key.path=value" in capsys.readouterr().err
+
+
+def test_a_launch_s_own_arguments(path, capsys, tmp_path):
+    options = ["--assistants", "helper", "--all-assistants", "--leader", "hand"]
+    assert main([str(path), *options, "--output", str(tmp_path)]) == 0
+    assert main([str(path), "--assistants", ""]) == 0  # all run elsewhere
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    "options, expected",
+    [
+        (["--assistants", "helpr"], "'helpr' \u2014 is no assistant of the scenario; did you mean"),
+        (["--assistants", "hand"], "assistants: helper"),
+        (["--assistants", "helper helper"], "names one twice"),
+        (["--assistants", "", "--all-assistants"], 'give assistants:="helper"'),
+        (["--leader", "helper"], "leader:=hand"),
+        (["--output", "/nowhere"], "'/nowhere' \u2014 does not exist"),
+        (["--output", "/dev/null"], "is no folder"),
+    ],
+)
+def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
+    assert main([str(path), "--resolved", *options]) == 1
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert expected in output.err
+
+
+def test_all_mistakes_in_a_launch_s_arguments_at_once(path, capsys):
+    assert main([str(path), "--assistants", "a b", "--leader", "c", "--output", "/d"]) == 1
+    assert "launch arguments: 4 mistakes" in capsys.readouterr().err

@@ -46,7 +46,7 @@ def test_files_of_a_triangle(tmp_path, text):
         ("0,0\n1,nan\n0,1\n", "line 2: '1,nan' is not finite"),
         ("0,0\n1,\n0,1\n", "line 2: '1,' are not two numbers"),
         ("", "3 distinct points or more, not 0"),
-        (b"0,0\n1,\xff\n", "cannot be read"),
+        (b"0,0\n1,\xff\n", "not UTF-8"),
         ("a\n" * 20, "and 15 lines more"),
     ],
 )
@@ -55,6 +55,12 @@ def test_files_that_are_refused(tmp_path, text, expected):
         read_text(tmp_path, text)
     assert expected in str(caught.value)
     assert "ring.csv" in str(caught.value)
+
+
+@pytest.mark.parametrize("path", ["/dev/zero", "."])
+def test_what_is_no_regular_file_is_refused(path):
+    with pytest.raises(PolygonError, match=f"^{path} "):
+        read_ring(path)
 
 
 def test_every_wrong_line_is_told(tmp_path):

@@ -1,6 +1,7 @@
 """What a correct scenario becomes, and where files are found."""
 
 import math
+import os
 from pathlib import Path
 
 import pytest
@@ -149,6 +150,18 @@ def test_unknown_bare_name_lists_the_scenarios():
     with pytest.raises(ScenarioError) as caught:
         load_scenario("rope_one_asistant")
     assert "did you mean 'rope_one_assistant'?" in str(caught.value)
+
+
+def test_what_is_no_regular_file_is_refused(tmp_path):
+    os.mkfifo(str(tmp_path / "pipe.yaml"))
+    for path in (tmp_path / "pipe.yaml", "/dev/zero"):
+        with pytest.raises(ScenarioError, match="no regular file"):
+            load_scenario(path)
+
+
+def test_a_name_too_long_for_a_file():
+    with pytest.raises(ScenarioError, match="no such file"):
+        load_scenario("a" * 300)
 
 
 def test_missing_file(tmp_path):

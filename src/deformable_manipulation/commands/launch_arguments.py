@@ -1,0 +1,85 @@
+"""What launch files hand to ``check_scenario``: their own arguments, checked with the scenario."""
+
+import argparse
+import os
+from typing import Iterator, Sequence
+
+from deformable_manipulation.commands.arguments import overrides
+from deformable_manipulation.scenario.errors import Problem
+from deformable_manipulation.scenario.readers import nearest
+from deformable_manipulation.scenario.spec import Scenario
+
+
+def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of launch files, each as one text."""
+    group = parser.add_argument_group(
+        "for launch files", "mistakes in a launch's own arguments, before any node starts"
+    )
+    group.add_argument(
+        "--sets",
+        metavar="'KEY.PATH=VALUE ...'",
+        type=overrides,
+        default=[],
+        help="several values to replace, separated by blanks",
+    )
+    group.add_argument(
+        "--assistants",
+        metavar="NAMES",
+        type=str.split,
+        default=[],
+        help="assistants that the scenario must have, separated by blanks",
+    )
+    group.add_argument(
+        "--all-assistants",
+        action="store_true",
+        help="--assistants must name all of them: a lock-step run waits for each",
+    )
+    group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
+    group.add_argument(
+        "--output", metavar="DIR", help="folder that must be there and take a recording"
+    )
+
+
+def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    """What is wrong with a launch's arguments for a correct scenario."""
+    yield from _assistant_problems(arguments, scenario)
+    leader = scenario.agents[scenario.leader_index].name
+    if arguments.leader not in (None, leader):
+        yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
+                      f"'{arguments.leader}'")
+    if arguments.output is not None:
+        yield from _folder_problems(arguments.output)
+
+
+def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    given: Sequence[str] = arguments.assistants
+    known = [scenario.agents[index].name for index in scenario.assistants]
+    for name in given:
+        if name not in known:
+            yield Problem(
+                "assistants",
+                "is no assistant of the scenario;{} assistants: {}".format(
+                    nearest(name, known), ", ".join(known)
+                ),
+                f"'{name}'",
+            )
+    if len(set(given)) < len(given):
+        yield Problem("assistants", "names one twice", f"'{' '.join(given)}'")
+    absent = [name for name in known if name not in given]
+    if arguments.all_assistants and absent:
+        yield Problem(
+            "assistants",
+            "lacks {}, and a lock-step run waits for every assistant; give "
+            'assistants:="{}"'.format(", ".join(absent), " ".join(known)),
+            f"'{' '.join(given)}'",
+        )
+
+
+def _folder_problems(folder: str) -> Iterator[Problem]:
+    if not os.path.exists(folder):
+        yield Problem("output", "does not exist; make the folder, or give another", f"'{folder}'")
+    elif not os.path.isdir(folder):
+        yield Problem("output", "is no folder; give one", f"'{folder}'")
+    elif not os.access(folder, os.W_OK | os.X_OK):
+        yield Problem("output", "is a folder that you may not write to; give another",
+                      f"'{folder}'")
