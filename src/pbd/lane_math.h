@@ -19,7 +19,7 @@ constexpr int kPackWidth = DEFORMABLE_MANIPULATION_PACK_WIDTH;
 
 typedef double Pack __attribute__((vector_size(kPackWidth * sizeof(double)), may_alias));
 
-DM_INLINE Pack broadcast(double value) { return Pack{} + value; }
+DM_INLINE Pack broadcast(double value) { return value - Pack{}; }
 
 DM_INLINE Pack load(const double* from) { return *reinterpret_cast<const Pack*>(from); }
 
@@ -42,6 +42,7 @@ struct Vec3 {
 
 DM_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 DM_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DM_INLINE Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
 DM_INLINE Vec3 operator*(const Pack& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 DM_INLINE Pack dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 DM_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
@@ -67,7 +68,7 @@ DM_INLINE Quat rotationBetween(const Quat& b, const Quat& a) {
 
 //! q turned by the small rotation vector r, to first order and renormalised.
 DM_INLINE Quat rotated(const Quat& q, const Vec3& r) {
-  const Vec3 half = broadcast(0.5) * r;
+  Vec3 half = broadcast(0.5) * r;
   return normalized({q.v + q.w * half + cross(half, q.v), q.w - dot(half, q.v)});
 }
 

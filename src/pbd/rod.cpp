@@ -16,6 +16,13 @@ namespace {
 // matrix regular where a straight piece is taut between two holds, and stays below 1 nm in use.
 constexpr double kFloorCompliance = 1e-8;
 
+// Of the inertia of a free segment: torques do not turn a clamped one.
+constexpr double kClampedInertia = 1e30;
+
+// Of the inertia of a segment: a joint that is stiffer than this times inertia / h^2 is rigid, and
+// the inertia would be lost in the rounding of the stiffness. Steel in segments of 2 mm has 1e9.
+constexpr double kRigidStiffness = 1e12;
+
 void copyLane(AlignedArray& to_array, int to, const AlignedArray& from_array, int from) {
   for (std::size_t i = 0; i < to_array.size(); i += kLanes) {
     to_array[i + to] = from_array[i + from];
@@ -57,6 +64,7 @@ Vector3 tangent(const Quaternion& orientation) { return orientation * Vector3::U
 struct Rod::State {
   std::vector<RodLanes> groups;
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
+  std::vector<double> transverse_inertia, inertia_excess;
   std::vector<unsigned char> joint_active;
   std::vector<double> reference_velocity, reference_angular_velocity;
   std::vector<HeldSegment> held;
@@ -68,6 +76,8 @@ struct Rod::State {
     input.inverse_mass = inverse_mass.data();
     input.inverse_transverse = inverse_transverse.data();
     input.inverse_axial = inverse_axial.data();
+    input.transverse_inertia = transverse_inertia.data();
+    input.inertia_excess = inertia_excess.data();
     input.joint_active = joint_active.data();
     input.reference_velocity = reference_velocity.data();
     input.reference_angular_velocity = reference_angular_velocity.data();
@@ -136,6 +146,8 @@ void Rod::holdsChanged() {
   s.inverse_mass.assign(n, 1.0 / parameters_.segmentMass());
   s.inverse_transverse.assign(n, 1.0 / parameters_.transverseInertia());
   s.inverse_axial.assign(n, 1.0 / parameters_.axialInertia());
+  s.transverse_inertia.assign(n, parameters_.transverseInertia());
+  s.inertia_excess.assign(n, parameters_.axialInertia() - parameters_.transverseInertia());
   s.joint_active.assign(n - 1, 1);
   s.held.resize(holds().size());
   for (const HeldPoint& held : holds()) {
@@ -143,6 +155,8 @@ void Rod::holdsChanged() {
     if (held.type == Hold::CLAMPED) {
       s.inverse_transverse[held.particle] = 0.0;
       s.inverse_axial[held.particle] = 0.0;
+      s.transverse_inertia[held.particle] *= kClampedInertia;
+      s.inertia_excess[held.particle] = 0.0;
     }
   }
   for (int j = 0; j + 1 < n; ++j) {
@@ -207,8 +221,12 @@ void Rod::beginStep(double h) {
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
   in.velocity_decay = std::exp(-p.damping * h);
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
-  in.bending_compliance = 1.0 / (l * p.bendingStiffness() * h2);
-  in.torsion_compliance = 1.0 / (l * p.torsionStiffness() * h2);
+  in.rate = 1.0 / h;
+  in.bending_compliance = l / (p.bendingStiffness() * h2);
+  in.torsion_compliance = l / (p.torsionStiffness() * h2);
+  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
+  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
+  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
   in.axial_compliance = p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : 0.0;
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
@@ -251,7 +269,7 @@ void Rod::substep() {
         }
       }
     }
-    substep(s.input, s.groups[group]);
+    substep(s.input, std::min(copyCount() - static_cast<int>(group) * kLanes, kLanes), s.groups[group]);
   }
 }
 
@@ -282,12 +300,9 @@ Wrench Rod::wrench(int particle) const {
       continue;
     }
     const Vector3 force = per_h2 * read3(lanes.multiplier, 2 * joint, 0);
-    const Vector3 moment = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
-    const Quaternion dq = read4(lanes.orientation, joint + 1, 0) * read4(lanes.orientation, joint, 0).conjugate();
-    const double sign = dq.w() < 0.0 ? -1.0 : 1.0;
-    const Vector3 bent = sign / parameters_.segmentLength() * (dq.w() * moment + dq.vec().cross(moment));
+    const Vector3 torque = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
     wrench.force += (side == 0 ? 1.0 : -1.0) * force;
-    wrench.torque += half * d.cross(force) + (side == 0 ? -1.0 : 1.0) * bent;
+    wrench.torque += half * d.cross(force) + (side == 0 ? 1.0 : -1.0) * torque;
   }
   return wrench;
 }

@@ -1,0 +1,200 @@
+#pragma once
+
+// 3 x 3 matrices on packs of SIMD lanes.
+
+#include "lane_math.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace DEFORMABLE_MANIPULATION_ISA {
+
+//! A general matrix, by columns.
+struct Matrix3 {
+  Vec3 x, y, z;
+};
+
+DM_INLINE Vec3 operator*(const Matrix3& m, const Vec3& v) { return v.x * m.x + v.y * m.y + v.z * m.z; }
+DM_INLINE Matrix3 operator*(const Pack& s, const Matrix3& m) { return {s * m.x, s * m.y, s * m.z}; }
+DM_INLINE Matrix3 operator+(const Matrix3& a, const Matrix3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+//! A^T v
+DM_INLINE Vec3 transposedTimes(const Matrix3& a, const Vec3& v) { return {dot(a.x, v), dot(a.y, v), dot(a.z, v)}; }
+
+//! A^T B
+DM_INLINE Matrix3 transposedTimes(const Matrix3& a, const Matrix3& b) {
+  return {transposedTimes(a, b.x), transposedTimes(a, b.y), transposedTimes(a, b.z)};
+}
+
+//! [v]_x, so that crossMatrix(v) * w = v x w.
+DM_INLINE Matrix3 crossMatrix(const Vec3& v) {
+  const Pack zero = {};
+  return {{zero, v.z, -v.y}, {-v.z, zero, v.x}, {v.y, -v.x, zero}};
+}
+
+//! A symmetric matrix: its lower triangle.
+struct Symmetric3 {
+  Pack xx, yx, yy, zx, zy, zz;
+};
+
+DM_INLINE Symmetric3 operator+(const Symmetric3& a, const Symmetric3& b) {
+  return {a.xx + b.xx, a.yx + b.yx, a.yy + b.yy, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
+}
+DM_INLINE Symmetric3 operator-(const Symmetric3& a, const Symmetric3& b) {
+  return {a.xx - b.xx, a.yx - b.yx, a.yy - b.yy, a.zx - b.zx, a.zy - b.zy, a.zz - b.zz};
+}
+DM_INLINE Symmetric3 operator*(const Pack& s, const Symmetric3& a) {
+  return {s * a.xx, s * a.yx, s * a.yy, s * a.zx, s * a.zy, s * a.zz};
+}
+DM_INLINE Vec3 operator*(const Symmetric3& a, const Vec3& v) {
+  return {a.xx * v.x + a.yx * v.y + a.zx * v.z, a.yx * v.x + a.yy * v.y + a.zy * v.z,
+          a.zx * v.x + a.zy * v.y + a.zz * v.z};
+}
+
+DM_INLINE Matrix3 operator*(const Symmetric3& a, const Matrix3& m) { return {a * m.x, a * m.y, a * m.z}; }
+
+//! M A
+DM_INLINE Matrix3 operator*(const Matrix3& m, const Symmetric3& a) {
+  return {m * Vec3{a.xx, a.yx, a.zx}, m * Vec3{a.yx, a.yy, a.zy}, m * Vec3{a.zx, a.zy, a.zz}};
+}
+
+DM_INLINE Matrix3 toMatrix(const Symmetric3& a) { return {{a.xx, a.yx, a.zx}, {a.yx, a.yy, a.zy}, {a.zx, a.zy, a.zz}}; }
+
+//! s 1
+DM_INLINE Symmetric3 isotropic(const Pack& s) {
+  const Pack zero = {};
+  return {s, zero, s, zero, zero, s};
+}
+
+//! s v v^T
+DM_INLINE Symmetric3 outer(const Pack& s, const Vec3& v) {
+  Vec3 sv = s * v;
+  return {sv.x * v.x, sv.y * v.x, sv.y * v.y, sv.z * v.x, sv.z * v.y, sv.z * v.z};
+}
+
+//! A^T B, where that is known to be symmetric.
+DM_INLINE Symmetric3 symmetricProduct(const Matrix3& a, const Matrix3& b) {
+  return {dot(a.x, b.x), dot(a.y, b.x), dot(a.y, b.y), dot(a.z, b.x), dot(a.z, b.y), dot(a.z, b.z)};
+}
+
+//! A B^T, where that is known to be symmetric.
+DM_INLINE Symmetric3 symmetricProductTransposed(const Matrix3& a, const Matrix3& b) {
+  return {a.x.x * b.x.x + a.y.x * b.y.x + a.z.x * b.z.x, a.x.y * b.x.x + a.y.y * b.y.x + a.z.y * b.z.x,
+          a.x.y * b.x.y + a.y.y * b.y.y + a.z.y * b.z.y, a.x.z * b.x.x + a.y.z * b.y.x + a.z.z * b.z.x,
+          a.x.z * b.x.y + a.y.z * b.y.y + a.z.z * b.z.y, a.x.z * b.x.z + a.y.z * b.y.z + a.z.z * b.z.z};
+}
+
+//! L D L^T of a positive definite matrix, with unit lower triangular L; holds the inverse of D.
+struct Factor3 {
+  Pack yx, zx, zy;  // of L
+  Vec3 inverse_d;
+
+  //! L^-1 v
+  DM_INLINE Vec3 solveLower(const Vec3& v) const {
+    const Pack y = v.y - yx * v.x;
+    return {v.x, y, v.z - zx * v.x - zy * y};
+  }
+  //! L^-T v
+  DM_INLINE Vec3 solveUpper(const Vec3& v) const {
+    const Pack y = v.y - zy * v.z;
+    return {v.x - zx * v.z - yx * y, y, v.z};
+  }
+  //! D^-1 v
+  DM_INLINE Vec3 solveDiagonal(const Vec3& v) const {
+    return {inverse_d.x * v.x, inverse_d.y * v.y, inverse_d.z * v.z};
+  }
+  DM_INLINE Matrix3 solveLower(const Matrix3& m) const { return {solveLower(m.x), solveLower(m.y), solveLower(m.z)}; }
+  DM_INLINE Matrix3 solveDiagonal(const Matrix3& m) const {
+    return {solveDiagonal(m.x), solveDiagonal(m.y), solveDiagonal(m.z)};
+  }
+};
+
+DM_INLINE Factor3 factorized(const Symmetric3& a) {
+  const Pack inverse_x = 1.0 / a.xx;
+  const Pack yx = a.yx * inverse_x;
+  const Pack zx = a.zx * inverse_x;
+  const Pack inverse_y = 1.0 / (a.yy - yx * a.yx);
+  const Pack zy_d = a.zy - zx * a.yx;
+  const Pack zy = zy_d * inverse_y;
+  const Pack inverse_z = 1.0 / (a.zz - zx * a.zx - zy * zy_d);
+  return {yx, zx, zy, {inverse_x, inverse_y, inverse_z}};
+}
+
+//! Inverse of a positive definite matrix, by its cofactors: shorter to wait for than elimination.
+DM_INLINE Symmetric3 inverse(const Symmetric3& a) {
+  const Pack xx = a.yy * a.zz - a.zy * a.zy;
+  const Pack yx = a.zy * a.zx - a.yx * a.zz;
+  const Pack zx = a.yx * a.zy - a.yy * a.zx;
+  const Pack scale = 1.0 / (a.xx * xx + a.yx * yx + a.zx * zx);
+  return scale * Symmetric3{xx, yx, a.xx * a.zz - a.zx * a.zx, zx, a.yx * a.zx - a.xx * a.zy, a.xx * a.yy - a.yx * a.yx};
+}
+
+//! Writes quantities one after the other. Pack by pack: compilers copy whole structures badly.
+class PackWriter {
+ public:
+  explicit PackWriter(double* to) : to_(to) {}
+  DM_INLINE void put(const Pack& value) {
+    store(to_, value);
+    to_ += kPackWidth;
+  }
+  DM_INLINE void put(const Vec3& v) {
+    put(v.x);
+    put(v.y);
+    put(v.z);
+  }
+  DM_INLINE void put(const Matrix3& m) {
+    put(m.x);
+    put(m.y);
+    put(m.z);
+  }
+  DM_INLINE void put(const Symmetric3& a) {
+    put(a.xx);
+    put(a.yx);
+    put(a.yy);
+    put(a.zx);
+    put(a.zy);
+    put(a.zz);
+  }
+  DM_INLINE void put(const Factor3& a) {
+    put(a.yx);
+    put(a.zx);
+    put(a.zy);
+    put(a.inverse_d);
+  }
+
+ private:
+  double* to_;
+};
+
+//! Reads what a PackWriter has written.
+class PackReader {
+ public:
+  explicit PackReader(const double* from) : from_(from) {}
+  DM_INLINE Pack getPack() {
+    from_ += kPackWidth;
+    return load(from_ - kPackWidth);
+  }
+  DM_INLINE Vec3 getVec3() {
+    const Pack x = getPack(), y = getPack(), z = getPack();
+    return {x, y, z};
+  }
+  DM_INLINE Matrix3 getMatrix3() {
+    Vec3 x = getVec3(), y = getVec3(), z = getVec3();
+    return {x, y, z};
+  }
+  DM_INLINE Symmetric3 getSymmetric3() {
+    const Pack xx = getPack(), yx = getPack(), yy = getPack(), zx = getPack(), zy = getPack(), zz = getPack();
+    return {xx, yx, yy, zx, zy, zz};
+  }
+  DM_INLINE Factor3 getFactor3() {
+    const Pack yx = getPack(), zx = getPack(), zy = getPack();
+    Vec3 inverse_d = getVec3();
+    return {yx, zx, zy, inverse_d};
+  }
+
+ private:
+  const double* from_;
+};
+
+}  // namespace DEFORMABLE_MANIPULATION_ISA
+}  // namespace pbd
+}  // namespace deformable_manipulation
