@@ -17,12 +17,17 @@ DM_INLINE Vec3 operator*(const Matrix3& m, const Vec3& v) { return v.x * m.x + v
 DM_INLINE Matrix3 operator*(const Pack& s, const Matrix3& m) { return {s * m.x, s * m.y, s * m.z}; }
 DM_INLINE Matrix3 operator+(const Matrix3& a, const Matrix3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
+//! M v + c
+DM_INLINE Vec3 multiplyAdd(const Matrix3& m, const Vec3& v, const Vec3& c) {
+  return scaleAdd(v.z, m.z, scaleAdd(v.y, m.y, scaleAdd(v.x, m.x, c)));
+}
+
 //! A^T v
 DM_INLINE Vec3 transposedTimes(const Matrix3& a, const Vec3& v) { return {dot(a.x, v), dot(a.y, v), dot(a.z, v)}; }
 
-//! A^T B
-DM_INLINE Matrix3 transposedTimes(const Matrix3& a, const Matrix3& b) {
-  return {transposedTimes(a, b.x), transposedTimes(a, b.y), transposedTimes(a, b.z)};
+//! A^T v + c
+DM_INLINE Vec3 transposedMultiplyAdd(const Matrix3& a, const Vec3& v, const Vec3& c) {
+  return {dotAdd(a.x, v, c.x), dotAdd(a.y, v, c.y), dotAdd(a.z, v, c.z)};
 }
 
 //! [v]_x, so that crossMatrix(v) * w = v x w.
@@ -65,22 +70,40 @@ DM_INLINE Symmetric3 isotropic(const Pack& s) {
   return {s, zero, s, zero, zero, s};
 }
 
-//! s v v^T
-DM_INLINE Symmetric3 outer(const Pack& s, const Vec3& v) {
+//! A + s v v^T
+DM_INLINE Symmetric3 addOuter(const Symmetric3& a, const Pack& s, const Vec3& v) {
   Vec3 sv = s * v;
-  return {sv.x * v.x, sv.y * v.x, sv.y * v.y, sv.z * v.x, sv.z * v.y, sv.z * v.z};
+  return {a.xx + sv.x * v.x, a.yx + sv.y * v.x, a.yy + sv.y * v.y,
+          a.zx + sv.z * v.x, a.zy + sv.z * v.y, a.zz + sv.z * v.z};
 }
 
-//! A^T B, where that is known to be symmetric.
-DM_INLINE Symmetric3 symmetricProduct(const Matrix3& a, const Matrix3& b) {
-  return {dot(a.x, b.x), dot(a.y, b.x), dot(a.y, b.y), dot(a.z, b.x), dot(a.z, b.y), dot(a.z, b.z)};
+//! M s + C
+DM_INLINE Matrix3 multiplyAdd(const Pack& s, const Matrix3& m, const Matrix3& c) {
+  return {scaleAdd(s, m.x, c.x), scaleAdd(s, m.y, c.y), scaleAdd(s, m.z, c.z)};
 }
 
-//! A B^T, where that is known to be symmetric.
-DM_INLINE Symmetric3 symmetricProductTransposed(const Matrix3& a, const Matrix3& b) {
-  return {a.x.x * b.x.x + a.y.x * b.y.x + a.z.x * b.z.x, a.x.y * b.x.x + a.y.y * b.y.x + a.z.y * b.z.x,
-          a.x.y * b.x.y + a.y.y * b.y.y + a.z.y * b.z.y, a.x.z * b.x.x + a.y.z * b.y.x + a.z.z * b.z.x,
-          a.x.z * b.x.y + a.y.z * b.y.y + a.z.z * b.z.y, a.x.z * b.x.z + a.y.z * b.y.z + a.z.z * b.z.z};
+//! A v + c
+DM_INLINE Vec3 multiplyAdd(const Symmetric3& a, const Vec3& v, const Vec3& c) {
+  return {c.x + a.xx * v.x + a.yx * v.y + a.zx * v.z, c.y + a.yx * v.x + a.yy * v.y + a.zy * v.z,
+          c.z + a.zx * v.x + a.zy * v.y + a.zz * v.z};
+}
+
+//! A M + C
+DM_INLINE Matrix3 multiplyAdd(const Symmetric3& a, const Matrix3& m, const Matrix3& c) {
+  return {multiplyAdd(a, m.x, c.x), multiplyAdd(a, m.y, c.y), multiplyAdd(a, m.z, c.z)};
+}
+
+//! A^T B + C, where A^T B is known to be symmetric.
+DM_INLINE Symmetric3 transposedMultiplyAdd(const Matrix3& a, const Matrix3& b, const Symmetric3& c) {
+  return {dotAdd(a.x, b.x, c.xx), dotAdd(a.y, b.x, c.yx), dotAdd(a.y, b.y, c.yy),
+          dotAdd(a.z, b.x, c.zx), dotAdd(a.z, b.y, c.zy), dotAdd(a.z, b.z, c.zz)};
+}
+
+//! A B^T + C, where A B^T is known to be symmetric.
+DM_INLINE Symmetric3 multiplyTransposedAdd(const Matrix3& a, const Matrix3& b, const Symmetric3& c) {
+  return {c.xx + a.x.x * b.x.x + a.y.x * b.y.x + a.z.x * b.z.x, c.yx + a.x.y * b.x.x + a.y.y * b.y.x + a.z.y * b.z.x,
+          c.yy + a.x.y * b.x.y + a.y.y * b.y.y + a.z.y * b.z.y, c.zx + a.x.z * b.x.x + a.y.z * b.y.x + a.z.z * b.z.x,
+          c.zy + a.x.z * b.x.y + a.y.z * b.y.y + a.z.z * b.z.y, c.zz + a.x.z * b.x.z + a.y.z * b.y.z + a.z.z * b.z.z};
 }
 
 //! L D L^T of a positive definite matrix, with unit lower triangular L; holds the inverse of D.

@@ -66,6 +66,7 @@ struct Rod::State {
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
   std::vector<double> transverse_inertia, inertia_excess;
   std::vector<unsigned char> joint_active;
+  std::vector<double> linear_rate, angular_rate;
   std::vector<double> reference_velocity, reference_angular_velocity;
   std::vector<HeldSegment> held;
   AlignedArray workspace;
@@ -79,6 +80,8 @@ struct Rod::State {
     input.transverse_inertia = transverse_inertia.data();
     input.inertia_excess = inertia_excess.data();
     input.joint_active = joint_active.data();
+    input.linear_rate = linear_rate.data();
+    input.angular_rate = angular_rate.data();
     input.reference_velocity = reference_velocity.data();
     input.reference_angular_velocity = reference_angular_velocity.data();
     input.held = held.data();
@@ -94,6 +97,8 @@ Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new 
   const int n = parameters_.segments;
   State& s = *state_;
   s.groups.emplace_back(n);
+  s.linear_rate.resize(n);
+  s.angular_rate.resize(n);
   s.reference_velocity.resize(3 * n);
   s.reference_angular_velocity.resize(3 * n);
   s.input = RodSubstepInput{};
@@ -219,9 +224,7 @@ void Rod::beginStep(double h) {
   in.h = h;
   in.segment_length = l;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
-  in.velocity_decay = std::exp(-p.damping * h);
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
-  in.rate = 1.0 / h;
   in.bending_compliance = l / (p.bendingStiffness() * h2);
   in.torsion_compliance = l / (p.torsionStiffness() * h2);
   const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
@@ -230,6 +233,7 @@ void Rod::beginStep(double h) {
   in.axial_compliance = p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : 0.0;
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
+  dampTowardsReference(h);
   state_->connect();
 }
 
@@ -248,6 +252,22 @@ void Rod::updateReferenceMotion() {
   }
   rigidMotion(segments, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
               s.reference_angular_velocity.data());
+}
+
+//! v_ref + decay (v - v_ref), with v the displacement over h; held segments are not damped.
+void Rod::dampTowardsReference(double h) {
+  State& s = *state_;
+  const double decay = std::exp(-parameters_.damping * h);
+  for (int i = 0; i < parameters_.segments; ++i) {
+    const double linear = s.inverse_mass[i] > 0.0 ? decay : 1.0;
+    const double angular = s.inverse_transverse[i] > 0.0 ? decay : 1.0;
+    s.linear_rate[i] = linear / h;
+    s.angular_rate[i] = angular / h;
+    for (int axis = 3 * i; axis < 3 * i + 3; ++axis) {
+      s.reference_velocity[axis] *= 1.0 - linear;
+      s.reference_angular_velocity[axis] *= 1.0 - angular;
+    }
+  }
 }
 
 void Rod::substep() {

@@ -28,8 +28,8 @@ struct Elasticity {
 DM_INLINE Elasticity elasticityOf(const Joint& joint, double bending, double torsion) {
   Vec3 axis = joint.bTransposed(joint.d0);  // of twist
   const Pack excess = broadcast(torsion - bending);
-  return {isotropic(broadcast(bending)) + outer(broadcast(-bending), joint.k) + outer(excess, axis),
-          (2.0 * bending * joint.w) * joint.k + (2.0 * excess * dot(joint.d0, joint.k)) * axis};
+  return {addOuter(addOuter(isotropic(broadcast(bending)), broadcast(-bending), joint.k), excess, axis),
+          scaleAdd(2.0 * excess * dot(joint.d0, joint.k), axis, (2.0 * bending * joint.w) * joint.k)};
 }
 
 //! The chain as the segment and the joint that come next feel it, all before being eliminated:
@@ -85,19 +85,19 @@ class RodChain {
 
     const Symmetric3& k = elasticity.stiffness;
     Vec3 turn = a * torque;
-    Vec3 gap = front.gap + gapOf(joint, front.segment.x, next.x, half_length_) + transposedTimes(front.lever, turn);
+    Vec3 gap = transposedMultiplyAdd(front.lever, turn, front.gap + gapOf(joint, front.segment.x, next.x, half_length_));
     Matrix3 u = a * front.lever;
-    Symmetric3 mobility = front.mobility + symmetricProduct(front.lever, u) +
-                          isotropic(broadcast(in_.inverse_mass[j] + in_.inverse_mass[j + 1] + in_.floor_compliance));
+    const Pack mass = broadcast(in_.inverse_mass[j] + in_.inverse_mass[j + 1] + in_.floor_compliance);
+    Symmetric3 mobility = transposedMultiplyAdd(front.lever, u, front.mobility + isotropic(mass));
     if (in_.axial_compliance > 0.0) {
-      mobility = mobility + outer(broadcast(in_.axial_compliance), joint.d0);
+      mobility = addOuter(mobility, broadcast(in_.axial_compliance), joint.d0);
     }
     Matrix3 arm = crossMatrix(half_length_ * tangent);
-    Matrix3 h = arm + k * u;
+    Matrix3 h = multiplyAdd(k, u, arm);
     Symmetric3 p = active ? inverse(mobility) : Symmetric3{};
-    Symmetric3 next_inertia = inertia(j + 1, tangent) + k - symmetricProduct(toMatrix(k), a * toMatrix(k));
+    Symmetric3 next_inertia = inertia(j + 1, tangent) + k - transposedMultiplyAdd(toMatrix(k), a * toMatrix(k), Symmetric3{});
     Matrix3 v = h * p;
-    Vec3 force = -(p * gap);
+    Vec3 force = p * gap;
     keep.put(p);
     keep.put(v);
     keep.put(force);
@@ -105,11 +105,11 @@ class RodChain {
     const Pack inverse_mass = broadcast(in_.inverse_mass[j + 1]);
     return {next,
             tangent,
-            next_inertia + symmetricProductTransposed(v, h),
-            k * turn - elasticity.torque + h * force,
-            arm + inverse_mass * v,
+            multiplyTransposedAdd(v, h, next_inertia),
+            multiplyAdd(h, -force, multiplyAdd(k, turn, -elasticity.torque)),
+            multiplyAdd(inverse_mass, v, arm),
             (-inverse_mass * inverse_mass) * p,
-            -inverse_mass * force};
+            inverse_mass * force};
   }
 
   //! Solves for the last segment, which no joint follows.
@@ -127,12 +127,12 @@ class RodChain {
     Matrix3 lever = kept_values.getMatrix3();
     Symmetric3 p = kept_values.getSymmetric3();
     Matrix3 v = kept_values.getMatrix3();
-    Vec3 first_force = kept_values.getVec3();
+    Vec3 gap_force = kept_values.getVec3();
     const Pack inverse_mass = broadcast(in_.inverse_mass[j + 1]);
-    Vec3 force = first_force + inverse_mass * (p * after.force) - transposedTimes(v, after.rotation);
+    Vec3 force = transposedMultiplyAdd(v, -after.rotation, multiplyAdd(p, inverse_mass * after.force, -gap_force));
     Vec3 pull = stiffness * after.rotation;
-    Vec3 rotation = a * (torque + lever * force + pull);
-    pack_.storeWrench(j, {force, elastic_torque + pull - stiffness * rotation});
+    Vec3 rotation = a * multiplyAdd(lever, force, torque + pull);
+    pack_.storeWrench(j, {force, multiplyAdd(stiffness, -rotation, elastic_torque + pull)});
     move(j + 1, inverse_mass * (after.force - force), after.rotation);
     return {rotation, force};
   }
@@ -144,14 +144,14 @@ class RodChain {
 
  private:
   DM_INLINE Symmetric3 inertia(int i, const Vec3& d) const {
-    return isotropic(broadcast(in_.transverse_inertia[i])) + outer(broadcast(in_.inertia_excess[i]), d);
+    return addOuter(isotropic(broadcast(in_.transverse_inertia[i])), broadcast(in_.inertia_excess[i]), d);
   }
 
   DM_INLINE void move(int i, const Vec3& shift, const Vec3& rotation) {
     Placement place = pack_.placement(i);
     place.x = place.x + shift;
     if (in_.inverse_transverse[i] > 0.0) {
-      place.q = rotated(place.q, rotation);
+      place.q = rotated(place.q, broadcast(0.5) * rotation);
     }
     pack_.finish(i, place);
   }

@@ -22,9 +22,9 @@ struct Joint {
   Pack w;       // scalar part of dq
 
   //! l B v, where B is the derivative of the second part of C by the second segment's rotation.
-  DM_INLINE Vec3 b(const Vec3& v) const { return w * v - cross(k, v); }
+  DM_INLINE Vec3 b(const Vec3& v) const { return crossAdd(v, k, w * v); }
   //! l B^T v
-  DM_INLINE Vec3 bTransposed(const Vec3& v) const { return w * v + cross(k, v); }
+  DM_INLINE Vec3 bTransposed(const Vec3& v) const { return crossAdd(k, v, w * v); }
 };
 
 DM_INLINE Joint jointBetween(const Quat& q0, const Vec3& d0, const Quat& q1, const Vec3& d1) {
@@ -34,7 +34,7 @@ DM_INLINE Joint jointBetween(const Quat& q0, const Vec3& d0, const Quat& q1, con
 
 //! How far the two segments' ends are apart: the first part of C.
 DM_INLINE Vec3 gapOf(const Joint& joint, const Vec3& x0, const Vec3& x1, const Pack& half_length) {
-  return x0 - x1 + half_length * (joint.d0 + joint.d1);
+  return scaleAdd(half_length, joint.d0 + joint.d1, x0 - x1);
 }
 
 }  // namespace DEFORMABLE_MANIPULATION_ISA

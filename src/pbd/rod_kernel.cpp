@@ -52,7 +52,7 @@ void solveChains(RodChain* chains, int joints) {
 }
 
 #ifndef TOGETHER
-#define TOGETHER 2
+#define TOGETHER 1
 #endif
 void direct(const RodSubstepInput& input, int copies, RodLanes& lanes) {
   const int packs = packsFor(copies);

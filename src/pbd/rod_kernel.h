@@ -37,10 +37,8 @@ struct HeldSegment {
 struct RodSubstepInput {
   int segments;
   double h;                                  // s
-  double rate;                               // 1 / h
   double segment_length;                     // m
   double gravity[3];                         // m/s^2
-  double velocity_decay;                     // factor on motion relative to the reference in a substep
   double inertia_ratio;                      // (axial - transverse) / transverse moment of inertia
   double bending_compliance;                 // l / (E I h^2)
   double torsion_compliance;                 // l / (G J h^2)
@@ -54,7 +52,9 @@ struct RodSubstepInput {
   const double* transverse_inertia;          // [N] kg m^2, huge where clamped
   const double* inertia_excess;              // [N] kg m^2, axial - transverse, zero where clamped
   const unsigned char* joint_active;         // [N - 1] false between two held segments
-  const double* reference_velocity;          // [N x 3] m/s, motion of the held points carried along the rod
+  const double* linear_rate;                 // [N] 1/s, velocity per displacement in a substep: damping / h
+  const double* angular_rate;                // [N] 1/s
+  const double* reference_velocity;          // [N x 3] m/s, added to it: the part that is not damped
   const double* reference_angular_velocity;  // [N x 3] rad/s
   const HeldSegment* held;
   int held_count;

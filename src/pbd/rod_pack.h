@@ -59,18 +59,15 @@ class RodPack {
 
   //! Stores where a segment is at the end of the substep, and its velocity.
   DM_INLINE void finish(int i, const Placement& end) {
-    const Pack rate = broadcast(in_.rate);
-    const Pack decay = broadcast(in_.velocity_decay);
-    Vec3 v = rate * (end.x - load3(previous_position_ + at3(i), kLanes));
-    Quat dq = rotationBetween(load4(previous_orientation_ + at4(i), kLanes), end.q);
-    Vec3 omega = (2.0 * rate * signOf(dq.w)) * dq.v;
-    Vec3 v_reference = broadcast3(in_.reference_velocity + 3 * i);
-    Vec3 omega_reference = broadcast3(in_.reference_angular_velocity + 3 * i);
+    Vec3 moved = end.x - load3(previous_position_ + at3(i), kLanes);
+    Quat turned = rotationBetween(load4(previous_orientation_ + at4(i), kLanes), end.q);
+    const Pack angular_rate = 2.0 * in_.angular_rate[i] * signOf(turned.w);
     store3(position_ + at3(i), kLanes, end.x);
     store4(orientation_ + at4(i), kLanes, end.q);
-    store3(velocity_ + at3(i), kLanes, in_.inverse_mass[i] > 0.0 ? v_reference + decay * (v - v_reference) : v);
+    store3(velocity_ + at3(i), kLanes,
+           scaleAdd(broadcast(in_.linear_rate[i]), moved, broadcast3(in_.reference_velocity + 3 * i)));
     store3(angular_velocity_ + at3(i), kLanes,
-           in_.inverse_transverse[i] > 0.0 ? omega_reference + decay * (omega - omega_reference) : omega);
+           scaleAdd(angular_rate, turned.v, broadcast3(in_.reference_angular_velocity + 3 * i)));
   }
 
  private:
@@ -83,15 +80,15 @@ class RodPack {
     store3(previous_position_ + at3(i), kLanes, start.x);
     store4(previous_orientation_ + at4(i), kLanes, start.q);
     if (in_.inverse_mass[i] > 0.0) {
-      Vec3 v = load3(velocity_ + at3(i), kLanes) + h * broadcast3(in_.gravity);
-      store3(position_ + at3(i), kLanes, start.x + h * v);
+      Vec3 v = scaleAdd(h, broadcast3(in_.gravity), load3(velocity_ + at3(i), kLanes));
+      store3(position_ + at3(i), kLanes, scaleAdd(h, v, start.x));
     }
     if (in_.inverse_transverse[i] > 0.0) {
       Vec3 omega = load3(angular_velocity_ + at3(i), kLanes);
       Vec3 d = tangentOf(start.q);
       // Gyroscopic torque of a body of revolution: I^-1 (omega x I omega).
       Vec3 precession = (in_.inertia_ratio * dot(d, omega)) * cross(omega, d);
-      store4(orientation_ + at4(i), kLanes, rotated(start.q, h * (omega - h * precession)));
+      store4(orientation_ + at4(i), kLanes, rotated(start.q, (0.5 * h) * scaleAdd(-h, precession, omega)));
     }
   }
 

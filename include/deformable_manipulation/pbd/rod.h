@@ -53,6 +53,7 @@ class Rod final : public Body {
   Rod(const Rod& other);
 
   void updateReferenceMotion();
+  void dampTowardsReference(double h);
   void placeCopy(int copy, const std::vector<Pose>& segments);
 
   RodParameters parameters_;
