@@ -93,6 +93,11 @@ DM_INLINE Matrix3 multiplyAdd(const Symmetric3& a, const Matrix3& m, const Matri
   return {multiplyAdd(a, m.x, c.x), multiplyAdd(a, m.y, c.y), multiplyAdd(a, m.z, c.z)};
 }
 
+//! A^T B, where that is known to be symmetric.
+DM_INLINE Symmetric3 transposedTimesSymmetric(const Matrix3& a, const Matrix3& b) {
+  return {dot(a.x, b.x), dot(a.y, b.x), dot(a.y, b.y), dot(a.z, b.x), dot(a.z, b.y), dot(a.z, b.z)};
+}
+
 //! A^T B + C, where A^T B is known to be symmetric.
 DM_INLINE Symmetric3 transposedMultiplyAdd(const Matrix3& a, const Matrix3& b, const Symmetric3& c) {
   return {dotAdd(a.x, b.x, c.xx), dotAdd(a.y, b.x, c.yx), dotAdd(a.y, b.y, c.yy),
@@ -106,49 +111,14 @@ DM_INLINE Symmetric3 multiplyTransposedAdd(const Matrix3& a, const Matrix3& b, c
           c.zy + a.x.z * b.x.y + a.y.z * b.y.y + a.z.z * b.z.y, c.zz + a.x.z * b.x.z + a.y.z * b.y.z + a.z.z * b.z.z};
 }
 
-//! L D L^T of a positive definite matrix, with unit lower triangular L; holds the inverse of D.
-struct Factor3 {
-  Pack yx, zx, zy;  // of L
-  Vec3 inverse_d;
-
-  //! L^-1 v
-  DM_INLINE Vec3 solveLower(const Vec3& v) const {
-    const Pack y = v.y - yx * v.x;
-    return {v.x, y, v.z - zx * v.x - zy * y};
-  }
-  //! L^-T v
-  DM_INLINE Vec3 solveUpper(const Vec3& v) const {
-    const Pack y = v.y - zy * v.z;
-    return {v.x - zx * v.z - yx * y, y, v.z};
-  }
-  //! D^-1 v
-  DM_INLINE Vec3 solveDiagonal(const Vec3& v) const {
-    return {inverse_d.x * v.x, inverse_d.y * v.y, inverse_d.z * v.z};
-  }
-  DM_INLINE Matrix3 solveLower(const Matrix3& m) const { return {solveLower(m.x), solveLower(m.y), solveLower(m.z)}; }
-  DM_INLINE Matrix3 solveDiagonal(const Matrix3& m) const {
-    return {solveDiagonal(m.x), solveDiagonal(m.y), solveDiagonal(m.z)};
-  }
-};
-
-DM_INLINE Factor3 factorized(const Symmetric3& a) {
-  const Pack inverse_x = 1.0 / a.xx;
-  const Pack yx = a.yx * inverse_x;
-  const Pack zx = a.zx * inverse_x;
-  const Pack inverse_y = 1.0 / (a.yy - yx * a.yx);
-  const Pack zy_d = a.zy - zx * a.yx;
-  const Pack zy = zy_d * inverse_y;
-  const Pack inverse_z = 1.0 / (a.zz - zx * a.zx - zy * zy_d);
-  return {yx, zx, zy, {inverse_x, inverse_y, inverse_z}};
-}
-
 //! Inverse of a positive definite matrix, by its cofactors: shorter to wait for than elimination.
 DM_INLINE Symmetric3 inverse(const Symmetric3& a) {
   const Pack xx = a.yy * a.zz - a.zy * a.zy;
   const Pack yx = a.zy * a.zx - a.yx * a.zz;
   const Pack zx = a.yx * a.zy - a.yy * a.zx;
   const Pack scale = 1.0 / (a.xx * xx + a.yx * yx + a.zx * zx);
-  return scale * Symmetric3{xx, yx, a.xx * a.zz - a.zx * a.zx, zx, a.yx * a.zx - a.xx * a.zy, a.xx * a.yy - a.yx * a.yx};
+  return scale *
+         Symmetric3{xx, yx, a.xx * a.zz - a.zx * a.zx, zx, a.yx * a.zx - a.xx * a.zy, a.xx * a.yy - a.yx * a.yx};
 }
 
 //! Writes quantities one after the other. Pack by pack: compilers copy whole structures badly.
@@ -177,12 +147,6 @@ class PackWriter {
     put(a.zy);
     put(a.zz);
   }
-  DM_INLINE void put(const Factor3& a) {
-    put(a.yx);
-    put(a.zx);
-    put(a.zy);
-    put(a.inverse_d);
-  }
 
  private:
   double* to_;
@@ -207,11 +171,6 @@ class PackReader {
   DM_INLINE Symmetric3 getSymmetric3() {
     const Pack xx = getPack(), yx = getPack(), yy = getPack(), zx = getPack(), zy = getPack(), zz = getPack();
     return {xx, yx, yy, zx, zy, zz};
-  }
-  DM_INLINE Factor3 getFactor3() {
-    const Pack yx = getPack(), zx = getPack(), zy = getPack();
-    Vec3 inverse_d = getVec3();
-    return {yx, zx, zy, inverse_d};
   }
 
  private:

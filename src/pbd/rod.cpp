@@ -7,6 +7,7 @@
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
+#include "thread_pool.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -15,6 +16,9 @@ namespace {
 // "Zero" stretch is this fraction of the joint's own response to a force. It keeps the chain's
 // matrix regular where a straight piece is taut between two holds, and stays below 1 nm in use.
 constexpr double kFloorCompliance = 1e-8;
+
+// Substeps that the threads do before they wait for each other.
+constexpr int kSubstepsAtOnce = 16;
 
 // Of the inertia of a free segment: torques do not turn a clamped one.
 constexpr double kClampedInertia = 1e30;
@@ -68,9 +72,13 @@ struct Rod::State {
   std::vector<unsigned char> joint_active;
   std::vector<double> linear_rate, angular_rate;
   std::vector<double> reference_velocity, reference_angular_velocity;
-  std::vector<HeldSegment> held;
-  AlignedArray workspace;
+  std::vector<HeldSegment> held;  // [kSubstepsAtOnce x groups x holds]
+  int pending = 0;                // substeps that are noted in it and still to be done
+  AlignedArray workspace;         // [threads x rodWorkspaceSize()]
   RodSubstepInput input;
+  RodSubstep solve;
+  std::shared_ptr<ThreadPool> pool;    // shared with clones
+  std::vector<SegmentMotion> motions;  // [N] scratch
 
   //! Points the kernel's input at this state's arrays.
   void connect() {
@@ -84,9 +92,10 @@ struct Rod::State {
     input.angular_rate = angular_rate.data();
     input.reference_velocity = reference_velocity.data();
     input.reference_angular_velocity = reference_angular_velocity.data();
-    input.held = held.data();
-    input.held_count = static_cast<int>(held.size());
-    input.workspace = workspace.data();
+  }
+
+  HeldSegment* heldIn(int substep, std::size_t group, std::size_t holds) {
+    return held.data() + (substep * groups.size() + group) * holds;
   }
 };
 
@@ -101,9 +110,13 @@ Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new 
   s.angular_rate.resize(n);
   s.reference_velocity.resize(3 * n);
   s.reference_angular_velocity.resize(3 * n);
+  s.motions.resize(n);
   s.input = RodSubstepInput{};
+  s.pool = std::make_shared<ThreadPool>(parameters_.threads);
+  s.solve = selectedRodKernel().gauss_seidel;
   if (parameters_.solver == RodSolver::DIRECT) {
-    s.workspace.resize(rodWorkspaceSize(n));
+    s.solve = selectedRodKernel().direct;
+    s.workspace.resize(parameters_.threads * rodWorkspaceSize(n));
   }
   holdsChanged();
   layOut();
@@ -154,7 +167,7 @@ void Rod::holdsChanged() {
   s.transverse_inertia.assign(n, parameters_.transverseInertia());
   s.inertia_excess.assign(n, parameters_.axialInertia() - parameters_.transverseInertia());
   s.joint_active.assign(n - 1, 1);
-  s.held.resize(holds().size());
+  resizeHeld();
   for (const HeldPoint& held : holds()) {
     s.inverse_mass[held.particle] = 0.0;
     if (held.type == Hold::CLAMPED) {
@@ -177,7 +190,10 @@ void Rod::resizeCopies() {
   while (state_->groups.size() < groups) {
     state_->groups.push_back(state_->groups.front());
   }
+  resizeHeld();
 }
+
+void Rod::resizeHeld() { state_->held.resize(kSubstepsAtOnce * state_->groups.size() * holds().size()); }
 
 void Rod::assignCopy(int to, int from) {
   RodLanes& target = state_->groups[to / kLanes];
@@ -244,13 +260,12 @@ void Rod::updateReferenceMotion() {
     carriedMotion(holds(), p.segments, s.reference_velocity.data(), s.reference_angular_velocity.data());
     return;
   }
-  std::vector<SegmentMotion> segments(p.segments);
   for (int i = 0; i < p.segments; ++i) {
     const RodLanes& lanes = s.groups[0];
-    segments[i] = {read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)), read3(lanes.velocity, i, 0),
-                   read3(lanes.angular_velocity, i, 0)};
+    s.motions[i] = {read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)), read3(lanes.velocity, i, 0),
+                    read3(lanes.angular_velocity, i, 0)};
   }
-  rigidMotion(segments, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
+  rigidMotion(s.motions, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
               s.reference_angular_velocity.data());
 }
 
@@ -272,25 +287,46 @@ void Rod::dampTowardsReference(double h) {
 
 void Rod::substep() {
   State& s = *state_;
-  const RodKernel& kernel = selectedRodKernel();
-  const RodSubstep substep = parameters_.solver == RodSolver::DIRECT ? kernel.direct : kernel.gauss_seidel;
   for (std::size_t group = 0; group < s.groups.size(); ++group) {
-    for (std::size_t i = 0; i < s.held.size(); ++i) {
-      const HeldPoint& held = holds()[i];
-      HeldSegment& to = s.held[i];
-      to.segment = held.particle;
-      to.clamped = held.type == Hold::CLAMPED;
-      std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to.orientation);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int copy = static_cast<int>(group) * kLanes + lane;
-        const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
-        for (int axis = 0; axis < 3; ++axis) {
-          to.position[axis * kLanes + lane] = position[axis];
-        }
+    noteHeld(static_cast<int>(group) * kLanes, s.heldIn(s.pending, group, holds().size()));
+  }
+  if (++s.pending == kSubstepsAtOnce) {
+    endStep();
+  }
+}
+
+void Rod::noteHeld(int first_copy, HeldSegment* to) const {
+  for (const HeldPoint& held : holds()) {
+    to->segment = held.particle;
+    to->clamped = held.type == Hold::CLAMPED;
+    std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to->orientation);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int copy = first_copy + lane;
+      const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        to->position[axis * kLanes + lane] = position[axis];
       }
     }
-    substep(s.input, std::min(copyCount() - static_cast<int>(group) * kLanes, kLanes), s.groups[group]);
+    ++to;
   }
+}
+
+void Rod::endStep() {
+  State& s = *state_;
+  if (s.pending == 0) {
+    return;
+  }
+  s.pool->run(static_cast<int>(s.groups.size()), [&](int worker, int group) {
+    RodSubstepInput input = s.input;
+    input.workspace = s.workspace.data() + worker * (s.workspace.size() / parameters_.threads);
+    input.held_count = static_cast<int>(holds().size());
+    const int copies = std::min(copyCount() - group * kLanes, kLanes);
+    for (int i = 0; i < s.pending; ++i) {
+      input.held = s.heldIn(i, group, holds().size());
+      s.solve(input, copies, s.groups[group]);
+    }
+  });
+  s.pending = 0;
 }
 
 double Rod::stretch() const {

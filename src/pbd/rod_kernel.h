@@ -64,6 +64,7 @@ struct RodSubstepInput {
 //! Numbers per joint and copy in the direct solver's workspace.
 constexpr int kNumbersPerJoint = 45;
 
+//! Enough for one pack of any width: packs use it one after the other.
 constexpr std::size_t rodWorkspaceSize(int segments) {
   return static_cast<std::size_t>(segments - 1) * kNumbersPerJoint * kLanes;
 }

@@ -35,8 +35,6 @@ class RodPack {
         multiplier_(lanes.multiplier.data() + first_lane),
         first_lane_(first_lane) {}
 
-  const RodSubstepInput& input() const { return in_; }
-
   DM_INLINE Placement placement(int i) const {
     return {load3(position_ + at3(i), kLanes), load4(orientation_ + at4(i), kLanes)};
   }
@@ -95,8 +93,7 @@ class RodPack {
   void place(const HeldSegment& held) {
     store3(position_ + at3(held.segment), kLanes, load3(held.position + first_lane_, kLanes));
     if (held.clamped) {
-      store4(orientation_ + at4(held.segment), kLanes,
-             {broadcast3(held.orientation), broadcast(held.orientation[3])});
+      store4(orientation_ + at4(held.segment), kLanes, {broadcast3(held.orientation), broadcast(held.orientation[3])});
     }
   }
 

@@ -25,11 +25,10 @@ class RodSweep {
   RodSweep(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
       : pack_(input, lanes, first_lane), in_(input), half_length_(broadcast(0.5 * input.segment_length)) {}
 
-  void predict() { pack_.predict(); }
-
   //! One sweep along the chain. Always from the same end: turning round between substeps keeps
   //! the multipliers from settling.
-  void sweep() {
+  void substep() {
+    pack_.predict();
     Placement segment = pack_.placement(0);
     for (int j = 0; j + 1 < in_.segments; ++j) {
       Placement next = pack_.placement(j + 1);
