@@ -27,6 +27,16 @@ void requirePose(const Pose& pose) {
   }
 }
 
+void requireStep(double time_step, int substeps) {
+  if (std::isfinite(time_step) && time_step > 0.0 && substeps >= 1) {
+    return;  // before the texts are made: nothing is allocated inside a step
+  }
+  ParameterCheck check;
+  check.positive("time_step", time_step, "[s]");
+  check.require(substeps >= 1, "substeps", substeps, "a whole number >= 1");
+  check.throwIfAny();
+}
+
 }  // namespace
 
 bool PerturbedCopy::ready() const { return resting >= kRestUntilReady; }
@@ -125,6 +135,7 @@ void Body::removeCopy(int id) {
 }
 
 void Body::step(double time_step, int substeps) {
+  requireStep(time_step, substeps);
   const double h = time_step / substeps;
   retargetCopies();
   beginStep(h);
@@ -133,11 +144,17 @@ void Body::step(double time_step, int substeps) {
     advanceCopies(h);
     substep();
   }
+  endStep();
   ++steps_;
   checkFinite();
 }
 
 bool Body::settle(const SettleOptions& options) {
+  requireStep(options.time_step, options.substeps);
+  ParameterCheck check;
+  check.notNegative("speed_tolerance", options.speed_tolerance, "[m/s]");
+  check.notNegative("time_limit", options.time_limit, "[s]");
+  check.throwIfAny();
   for (HeldPoint& held : holds_) {
     held.twist = Twist();
   }

@@ -3,6 +3,9 @@
 // Small vector algebra on packs of SIMD lanes. A pack holds the same quantity of several copies
 // of a body. This header is compiled once per instruction set, each time in a namespace of its
 // own (DEFORMABLE_MANIPULATION_ISA), so that the linker never mixes code for different processors.
+//
+// Local structures of packs are not const anywhere in the kernel: GCC leaves const ones in memory.
+// Nor are they assigned to memory as a whole, which it does in pieces; see PackWriter.
 
 #ifndef DEFORMABLE_MANIPULATION_ISA
 #define DEFORMABLE_MANIPULATION_ISA portable
@@ -19,7 +22,8 @@ constexpr int kPackWidth = DEFORMABLE_MANIPULATION_PACK_WIDTH;
 
 typedef double Pack __attribute__((vector_size(kPackWidth * sizeof(double)), may_alias));
 
-DM_INLINE Pack broadcast(double value) { return Pack{} + value; }
+// Subtracting zero, unlike adding it, changes no number, so that nothing is computed.
+DM_INLINE Pack broadcast(double value) { return value - Pack{}; }
 
 DM_INLINE Pack load(const double* from) { return *reinterpret_cast<const Pack*>(from); }
 
@@ -42,11 +46,28 @@ struct Vec3 {
 
 DM_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 DM_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DM_INLINE Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
 DM_INLINE Vec3 operator*(const Pack& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 DM_INLINE Pack dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 DM_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+
+// Products added to something: sums that grow term by term become fused multiply-adds.
+
+//! a . b + c
+DM_INLINE Pack dotAdd(const Vec3& a, const Vec3& b, const Pack& c) { return c + a.x * b.x + a.y * b.y + a.z * b.z; }
+
+//! s a + c
+DM_INLINE Vec3 scaleAdd(const Pack& s, const Vec3& a, const Vec3& c) {
+  return {c.x + s * a.x, c.y + s * a.y, c.z + s * a.z};
+}
+
+//! a x b + c
+DM_INLINE Vec3 crossAdd(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {c.x + a.y * b.z - a.z * b.y, c.y + a.z * b.x - a.x * b.z, c.z + a.x * b.y - a.y * b.x};
+}
+
 DM_INLINE Vec3 broadcast3(const double* from) { return {broadcast(from[0]), broadcast(from[1]), broadcast(from[2])}; }
 
 //! Quaternion, vector part first.
@@ -56,19 +77,18 @@ struct Quat {
 };
 
 DM_INLINE Quat normalized(const Quat& q) {
-  const Pack scale = 1.0 / squareRoot(dot(q.v, q.v) + q.w * q.w);
+  const Pack scale = 1.0 / squareRoot(dotAdd(q.v, q.v, q.w * q.w));
   return {scale * q.v, scale * q.w};
 }
 
 //! a times the conjugate of b: the rotation in the fixed frame that leads from b to a.
 DM_INLINE Quat rotationBetween(const Quat& b, const Quat& a) {
-  return {b.w * a.v - a.w * b.v - cross(a.v, b.v), a.w * b.w + dot(a.v, b.v)};
+  return {crossAdd(b.v, a.v, scaleAdd(-a.w, b.v, b.w * a.v)), dotAdd(a.v, b.v, a.w * b.w)};
 }
 
-//! q turned by the small rotation vector r, to first order and renormalised.
-DM_INLINE Quat rotated(const Quat& q, const Vec3& r) {
-  const Vec3 half = broadcast(0.5) * r;
-  return normalized({q.v + q.w * half + cross(half, q.v), q.w - dot(half, q.v)});
+//! q turned by twice the small rotation vector `half`, to first order and renormalised.
+DM_INLINE Quat rotated(const Quat& q, const Vec3& half) {
+  return normalized({crossAdd(half, q.v, scaleAdd(q.w, half, q.v)), dotAdd(-half, q.v, q.w)});
 }
 
 //! The x axis of the frame q in the fixed frame: a segment's tangent.

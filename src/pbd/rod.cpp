@@ -8,6 +8,7 @@
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
+#include "thread_pool.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -16,6 +17,16 @@ namespace {
 // "Zero" stretch is this fraction of the joint's own response to a force. It keeps the chain's
 // matrix regular where a straight piece is taut between two holds, and stays below 1 nm in use.
 constexpr double kFloorCompliance = 1e-8;
+
+// Substeps that the threads do before they wait for each other.
+constexpr int kSubstepsAtOnce = 16;
+
+// Of the inertia of a free segment: torques do not turn a clamped one.
+constexpr double kClampedInertia = 1e30;
+
+// Of the inertia of a segment: a joint that is stiffer than this times inertia / h^2 is rigid, and
+// the inertia would be lost in the rounding of the stiffness. Steel in segments of 2 mm has 1e9.
+constexpr double kRigidStiffness = 1e12;
 
 void copyLane(AlignedArray& to_array, int to, const AlignedArray& from_array, int from) {
   for (std::size_t i = 0; i < to_array.size(); i += kLanes) {
@@ -58,11 +69,17 @@ Vector3 tangent(const Quaternion& orientation) { return orientation * Vector3::U
 struct Rod::State {
   std::vector<RodLanes> groups;
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
+  std::vector<double> transverse_inertia, inertia_excess;
   std::vector<unsigned char> joint_active;
+  std::vector<double> linear_rate, angular_rate;
   std::vector<double> reference_velocity, reference_angular_velocity;
-  std::vector<HeldSegment> held;
-  AlignedArray workspace;
+  std::vector<HeldSegment> held;  // [kSubstepsAtOnce x groups x holds]
+  int pending = 0;                // substeps that are noted in it and still to be done
+  AlignedArray workspace;         // [threads x rodWorkspaceSize()]
   RodSubstepInput input;
+  RodSubstep solve;
+  std::shared_ptr<ThreadPool> pool;    // shared with clones
+  std::vector<SegmentMotion> motions;  // [N] scratch
   RodEquilibrium equilibrium;
 
   //! Points the kernel's input at this state's arrays.
@@ -70,12 +87,17 @@ struct Rod::State {
     input.inverse_mass = inverse_mass.data();
     input.inverse_transverse = inverse_transverse.data();
     input.inverse_axial = inverse_axial.data();
+    input.transverse_inertia = transverse_inertia.data();
+    input.inertia_excess = inertia_excess.data();
     input.joint_active = joint_active.data();
+    input.linear_rate = linear_rate.data();
+    input.angular_rate = angular_rate.data();
     input.reference_velocity = reference_velocity.data();
     input.reference_angular_velocity = reference_angular_velocity.data();
-    input.held = held.data();
-    input.held_count = static_cast<int>(held.size());
-    input.workspace = workspace.data();
+  }
+
+  HeldSegment* heldIn(int substep, std::size_t group, std::size_t holds) {
+    return held.data() + (substep * groups.size() + group) * holds;
   }
 };
 
@@ -86,11 +108,17 @@ Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new 
   const int n = parameters_.segments;
   State& s = *state_;
   s.groups.emplace_back(n);
+  s.linear_rate.resize(n);
+  s.angular_rate.resize(n);
   s.reference_velocity.resize(3 * n);
   s.reference_angular_velocity.resize(3 * n);
+  s.motions.resize(n);
   s.input = RodSubstepInput{};
+  s.pool = std::make_shared<ThreadPool>(parameters_.threads);
+  s.solve = selectedRodKernel().gauss_seidel;
   if (parameters_.solver == RodSolver::DIRECT) {
-    s.workspace.resize(rodWorkspaceSize(n));
+    s.solve = selectedRodKernel().direct;
+    s.workspace.resize(parameters_.threads * rodWorkspaceSize(n));
   }
   holdsChanged();
   layOut();
@@ -138,13 +166,17 @@ void Rod::holdsChanged() {
   s.inverse_mass.assign(n, 1.0 / parameters_.segmentMass());
   s.inverse_transverse.assign(n, 1.0 / parameters_.transverseInertia());
   s.inverse_axial.assign(n, 1.0 / parameters_.axialInertia());
+  s.transverse_inertia.assign(n, parameters_.transverseInertia());
+  s.inertia_excess.assign(n, parameters_.axialInertia() - parameters_.transverseInertia());
   s.joint_active.assign(n - 1, 1);
-  s.held.resize(holds().size());
+  resizeHeld();
   for (const HeldPoint& held : holds()) {
     s.inverse_mass[held.particle] = 0.0;
     if (held.type == Hold::CLAMPED) {
       s.inverse_transverse[held.particle] = 0.0;
       s.inverse_axial[held.particle] = 0.0;
+      s.transverse_inertia[held.particle] *= kClampedInertia;
+      s.inertia_excess[held.particle] = 0.0;
     }
   }
   for (int j = 0; j + 1 < n; ++j) {
@@ -160,7 +192,10 @@ void Rod::resizeCopies() {
   while (state_->groups.size() < groups) {
     state_->groups.push_back(state_->groups.front());
   }
+  resizeHeld();
 }
+
+void Rod::resizeHeld() { state_->held.resize(kSubstepsAtOnce * state_->groups.size() * holds().size()); }
 
 void Rod::assignCopy(int to, int from) {
   RodLanes& target = state_->groups[to / kLanes];
@@ -207,13 +242,16 @@ void Rod::beginStep(double h) {
   in.h = h;
   in.segment_length = l;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
-  in.velocity_decay = std::exp(-p.damping * h);
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
-  in.bending_compliance = 1.0 / (l * p.bendingStiffness() * h2);
-  in.torsion_compliance = 1.0 / (l * p.torsionStiffness() * h2);
+  in.bending_compliance = l / (p.bendingStiffness() * h2);
+  in.torsion_compliance = l / (p.torsionStiffness() * h2);
+  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
+  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
+  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
   in.axial_compliance = p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : 0.0;
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
+  dampTowardsReference(h);
   state_->connect();
 }
 
@@ -224,37 +262,73 @@ void Rod::updateReferenceMotion() {
     carriedMotion(holds(), p.segments, s.reference_velocity.data(), s.reference_angular_velocity.data());
     return;
   }
-  std::vector<SegmentMotion> segments(p.segments);
   for (int i = 0; i < p.segments; ++i) {
     const RodLanes& lanes = s.groups[0];
-    segments[i] = {read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)), read3(lanes.velocity, i, 0),
-                   read3(lanes.angular_velocity, i, 0)};
+    s.motions[i] = {read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)), read3(lanes.velocity, i, 0),
+                    read3(lanes.angular_velocity, i, 0)};
   }
-  rigidMotion(segments, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
+  rigidMotion(s.motions, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
               s.reference_angular_velocity.data());
+}
+
+//! v_ref + decay (v - v_ref), with v the displacement over h; held segments are not damped.
+void Rod::dampTowardsReference(double h) {
+  State& s = *state_;
+  const double decay = std::exp(-parameters_.damping * h);
+  for (int i = 0; i < parameters_.segments; ++i) {
+    const double linear = s.inverse_mass[i] > 0.0 ? decay : 1.0;
+    const double angular = s.inverse_transverse[i] > 0.0 ? decay : 1.0;
+    s.linear_rate[i] = linear / h;
+    s.angular_rate[i] = angular / h;
+    for (int axis = 3 * i; axis < 3 * i + 3; ++axis) {
+      s.reference_velocity[axis] *= 1.0 - linear;
+      s.reference_angular_velocity[axis] *= 1.0 - angular;
+    }
+  }
 }
 
 void Rod::substep() {
   State& s = *state_;
-  const RodKernel& kernel = selectedRodKernel();
-  const RodSubstep substep = parameters_.solver == RodSolver::DIRECT ? kernel.direct : kernel.gauss_seidel;
   for (std::size_t group = 0; group < s.groups.size(); ++group) {
-    for (std::size_t i = 0; i < s.held.size(); ++i) {
-      const HeldPoint& held = holds()[i];
-      HeldSegment& to = s.held[i];
-      to.segment = held.particle;
-      to.clamped = held.type == Hold::CLAMPED;
-      std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to.orientation);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int copy = static_cast<int>(group) * kLanes + lane;
-        const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
-        for (int axis = 0; axis < 3; ++axis) {
-          to.position[axis * kLanes + lane] = position[axis];
-        }
+    noteHeld(static_cast<int>(group) * kLanes, s.heldIn(s.pending, group, holds().size()));
+  }
+  if (++s.pending == kSubstepsAtOnce) {
+    endStep();
+  }
+}
+
+void Rod::noteHeld(int first_copy, HeldSegment* to) const {
+  for (const HeldPoint& held : holds()) {
+    to->segment = held.particle;
+    to->clamped = held.type == Hold::CLAMPED;
+    std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to->orientation);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int copy = first_copy + lane;
+      const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        to->position[axis * kLanes + lane] = position[axis];
       }
     }
-    substep(s.input, s.groups[group]);
+    ++to;
   }
+}
+
+void Rod::endStep() {
+  State& s = *state_;
+  if (s.pending == 0) {
+    return;
+  }
+  s.pool->run(static_cast<int>(s.groups.size()), [&](int worker, int group) {
+    RodSubstepInput input = s.input;
+    input.workspace = s.workspace.data() + worker * (s.workspace.size() / parameters_.threads);
+    input.held_count = static_cast<int>(holds().size());
+    const int copies = std::min(copyCount() - group * kLanes, kLanes);
+    for (int i = 0; i < s.pending; ++i) {
+      input.held = s.heldIn(i, group, holds().size());
+      s.solve(input, copies, s.groups[group]);
+    }
+  });
+  s.pending = 0;
 }
 
 double Rod::stretch() const {
@@ -284,12 +358,9 @@ Wrench Rod::wrench(int particle) const {
       continue;
     }
     const Vector3 force = per_h2 * read3(lanes.multiplier, 2 * joint, 0);
-    const Vector3 moment = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
-    const Quaternion dq = read4(lanes.orientation, joint + 1, 0) * read4(lanes.orientation, joint, 0).conjugate();
-    const double sign = dq.w() < 0.0 ? -1.0 : 1.0;
-    const Vector3 bent = sign / parameters_.segmentLength() * (dq.w() * moment + dq.vec().cross(moment));
+    const Vector3 torque = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
     wrench.force += (side == 0 ? 1.0 : -1.0) * force;
-    wrench.torque += half * d.cross(force) + (side == 0 ? -1.0 : 1.0) * bent;
+    wrench.torque += half * d.cross(force) + (side == 0 ? 1.0 : -1.0) * torque;
   }
   return wrench;
 }

@@ -2,7 +2,6 @@
 
 #include "rod_equilibrium_kernel.h"
 
-#include "lane_matrix.h"
 #include "rod_joint.h"
 
 namespace deformable_manipulation {
@@ -13,20 +12,71 @@ namespace {
 //! Moment M that a joint exerts on its first segment. With the rotation phi of the second segment
 //! against the first one, dM / dphi = stiffness - [M]x / 2 in the frame that turns with the first.
 struct JointMoment {
-  Vec3 moment;     // N m
-  Sym3 stiffness;  // N m/rad
+  Vec3 moment;           // N m
+  Symmetric3 stiffness;  // N m/rad
 };
 
-DM_INLINE JointMoment momentOf(const Joint& joint, const Pack& bending, const Pack& torsion) {
-  const Vec3& d = joint.d0;
-  const Pack& w = joint.w;
-  const Pack excess = (torsion - bending) * joint.inverse_length;
-  const Pack flexural = bending * joint.inverse_length;
-  const Pack twist = dot(d, joint.k);
-  const Vec3 p = w * d + cross(joint.k, d);
-  const Sym3 isotropic = diagonal3(flexural * w * w - excess * twist * twist);
-  return {broadcast(2.0) * ((flexural * w) * joint.k + (excess * twist) * p),
-          isotropic - symmetricProduct(flexural, joint.k, joint.k) + symmetricProduct(excess, p, p)};
+//! @param flexural  E I / l
+//! @param torsional  G J / l
+DM_INLINE JointMoment momentOf(const Joint& joint, const Pack& flexural, const Pack& torsional) {
+  const Pack excess = torsional - flexural;
+  const Pack twist = dot(joint.d0, joint.k);
+  const Vec3 p = joint.bTransposed(joint.d0);
+  const Symmetric3 bending =
+      addOuter(isotropic(flexural * joint.w * joint.w - excess * twist * twist), -flexural, joint.k);
+  return {broadcast(2.0) * scaleAdd(excess * twist, p, (flexural * joint.w) * joint.k), addOuter(bending, excess, p)};
+}
+
+//! s (a b^T + b a^T) / 2
+DM_INLINE Symmetric3 symmetricProduct(const Pack& s, const Vec3& a, const Vec3& b) {
+  const Pack half = 0.5 * s;
+  return {s * a.x * b.x,
+          half * (a.y * b.x + a.x * b.y),
+          s * a.y * b.y,
+          half * (a.z * b.x + a.x * b.z),
+          half * (a.z * b.y + a.y * b.z),
+          s * a.z * b.z};
+}
+
+//! The number of negative eigenvalues of a matrix, by its leading minors.
+DM_INLINE Pack negativeEigenvalues(const Symmetric3& a) {
+  const Pack zero = {};
+  const Pack one = broadcast(1.0);
+  const Pack minor = a.xx * a.yy - a.yx * a.yx;
+  const Pack determinant =
+      a.xx * (a.yy * a.zz - a.zy * a.zy) + a.yx * (a.zy * a.zx - a.yx * a.zz) + a.zx * (a.yx * a.zy - a.yy * a.zx);
+  return (a.xx < zero ? one : zero) + (a.xx * minor < zero ? one : zero) + (minor * determinant < zero ? one : zero);
+}
+
+//! A function of each column.
+template <typename Function>
+DM_INLINE Matrix3 byColumns(const Matrix3& a, const Function& function) {
+  return {function(a.x), function(a.y), function(a.z)};
+}
+
+DM_INLINE Symmetric3 loadSymmetric3(const double* from) {
+  return {load(from),
+          load(from + kLanes),
+          load(from + 2 * kLanes),
+          load(from + 3 * kLanes),
+          load(from + 4 * kLanes),
+          load(from + 5 * kLanes)};
+}
+DM_INLINE void storeSymmetric3(double* to, const Symmetric3& a) {
+  store(to, a.xx);
+  store(to + kLanes, a.yx);
+  store(to + 2 * kLanes, a.yy);
+  store(to + 3 * kLanes, a.zx);
+  store(to + 4 * kLanes, a.zy);
+  store(to + 5 * kLanes, a.zz);
+}
+DM_INLINE Matrix3 loadMatrix3(const double* from) {
+  return {load3(from, kLanes), load3(from + 3 * kLanes, kLanes), load3(from + 6 * kLanes, kLanes)};
+}
+DM_INLINE void storeMatrix3(double* to, const Matrix3& a) {
+  store3(to, kLanes, a.x);
+  store3(to + 3 * kLanes, kLanes, a.y);
+  store3(to + 6 * kLanes, kLanes, a.z);
 }
 
 DM_INLINE Pack largerOf(const Pack& a, const Pack& b) { return a > b ? a : b; }
@@ -46,7 +96,6 @@ class Equilibrium {
         s_(lanes),
         lane_(first_lane),
         half_length_(broadcast(0.5 * input.segment_length)),
-        inverse_length_(broadcast(1.0 / input.segment_length)),
         axial_(broadcast(input.axial_compliance)),
         weight_(broadcast3(input.weight)) {}
 
@@ -116,24 +165,26 @@ class Equilibrium {
   }
 
   //! d moment on a segment / d force in a span
-  DM_INLINE Mat3 leverOf(int span, int i, const Vec3& d) const {
+  DM_INLINE Matrix3 leverOf(int span, int i, const Vec3& d) const {
     return crossMatrix((broadcast(jointsIn(span, i)) * half_length_) * d);
   }
 
   //! Forward elimination of the moment balance, for the residual and for each force of the spans.
   void eliminate() {
-    const Pack bending = broadcast(in_.bending_stiffness);
-    const Pack torsion = broadcast(in_.torsion_stiffness);
+    const Pack flexural = broadcast(in_.bending_stiffness / in_.segment_length);
+    const Pack torsional = broadcast(in_.torsion_stiffness / in_.segment_length);
     JointMoment before = {};
     Vec3 force_before = {};
     Quat q = orientation(0);
+    Vec3 next_tangent = tangentOf(q);
     for (int i = 0; i < in_.segments; ++i) {
-      const Vec3 d = tangentOf(q);
+      const Vec3 d = next_tangent;
       store3(at(s_.tangent, 3 * i), kLanes, d);
       JointMoment after = {};
       if (i + 1 < in_.segments) {
         const Quat next = orientation(i + 1);
-        after = momentOf(jointOf(q, next, inverse_length_), bending, torsion);
+        next_tangent = tangentOf(next);
+        after = momentOf(jointBetween(q, d, next, next_tangent), flexural, torsional);
         q = next;
       }
       const Vec3 force_after = force(i);
@@ -145,65 +196,60 @@ class Equilibrium {
     }
   }
 
-  DM_INLINE void eliminateSegment(int i, const Vec3& d, const Vec3& pull, const Vec3& residual, const Sym3& before,
-                                  const JointMoment& after) {
+  DM_INLINE void eliminateSegment(int i, const Vec3& d, const Vec3& pull, const Vec3& residual,
+                                  const Symmetric3& before, const JointMoment& after) {
     const bool free = !in_.clamped[i];
     const bool coupled = i > 0 && free && !in_.clamped[i - 1];
-    Sym3 pivot = diagonal3(broadcast(1.0));
+    Symmetric3 pivot = isotropic(broadcast(1.0));
     Vec3 right = {};
     if (free) {
-      pivot = before + after.stiffness + diagonal3(half_length_ * dot(d, pull)) -
-              symmetricProduct(half_length_, d, pull) + symmetricProduct(broadcast(in_.spin_stiffness), d, d);
+      pivot = addOuter(before + after.stiffness + isotropic(half_length_ * dot(d, pull)), broadcast(in_.spin_stiffness),
+                       d) -
+              symmetricProduct(half_length_, d, pull);
       right = residual;
     }
-    Mat3 carried = {};  // inverse pivot of the segment before times the coupling
-    Mat3 coupling = {};
+    Matrix3 carried = {};  // inverse pivot of the segment before times the coupling
     if (coupled) {
-      coupling = loadMat3(at(s_.coupling, 9 * (i - 1)), kLanes);
-      const Sym3 inverse = loadSym3(at(s_.inverse_pivot, 6 * (i - 1)), kLanes);
-      for (int k = 0; k < 3; ++k) {
-        carried.column[k] = inverse * coupling.column[k];
-      }
-      pivot = pivot - symmetricTransposedTimes(coupling, carried);
+      const Matrix3 coupling = loadMatrix3(at(s_.coupling, 9 * (i - 1)));
+      carried = loadSymmetric3(at(s_.inverse_pivot, 6 * (i - 1))) * coupling;
+      pivot = pivot - transposedTimesSymmetric(coupling, carried);
       right = right - transposedTimes(carried, load3(at(s_.correction, 3 * (i - 1)), kLanes));
     }
-    storeSym3(at(s_.inverse_pivot, 6 * i), kLanes, inverse3(pivot, negative_));
+    negative_ += negativeEigenvalues(pivot);
+    storeSymmetric3(at(s_.inverse_pivot, 6 * i), inverse(pivot));
     store3(at(s_.correction, 3 * i), kLanes, right);
-    storeMat3(at(s_.coupling, 9 * i), kLanes, crossMatrix(broadcast(0.5) * after.moment) - after.stiffness);
+    const Matrix3 turning = crossMatrix(broadcast(0.5) * after.moment);
+    storeMatrix3(at(s_.coupling, 9 * i), broadcast(-1.0) * toMatrix(after.stiffness) + turning);
     for (int span = 0; span < in_.span_count; ++span) {
-      Mat3 lever = {};
+      Matrix3 lever = {};
       if (free) {
         lever = leverOf(span, i, d);
       }
       if (coupled) {
-        const Mat3 previous = loadMat3(forceResponse(i - 1, span), kLanes);
-        for (int k = 0; k < 3; ++k) {
-          lever.column[k] = lever.column[k] - transposedTimes(carried, previous.column[k]);
-        }
+        lever = lever + byColumns(loadMatrix3(forceResponse(i - 1, span)),
+                                  [&](const Vec3& v) { return -transposedTimes(carried, v); });
       }
-      storeMat3(forceResponse(i, span), kLanes, lever);
+      storeMatrix3(forceResponse(i, span), lever);
     }
   }
 
   void substituteBack() {
     for (int i = in_.segments - 1; i >= 0; --i) {
-      const Sym3 inverse = loadSym3(at(s_.inverse_pivot, 6 * i), kLanes);
+      const Symmetric3 inverse_pivot = loadSymmetric3(at(s_.inverse_pivot, 6 * i));
       const bool coupled = i + 1 < in_.segments && !in_.clamped[i] && !in_.clamped[i + 1];
-      const Mat3 coupling = coupled ? loadMat3(at(s_.coupling, 9 * i), kLanes) : Mat3{};
-      const auto solve = [&](double* own, const double* next) {
-        Vec3 right = load3(own, kLanes);
-        if (coupled) {
-          right = right - coupling * load3(next, kLanes);
-        }
-        store3(own, kLanes, inverse * right);
-      };
-      solve(at(s_.correction, 3 * i), coupled ? at(s_.correction, 3 * (i + 1)) : nullptr);
+      const Matrix3 coupling = coupled ? loadMatrix3(at(s_.coupling, 9 * i)) : Matrix3{};
+      Vec3 right = load3(at(s_.correction, 3 * i), kLanes);
+      if (coupled) {
+        right = right - coupling * load3(at(s_.correction, 3 * (i + 1)), kLanes);
+      }
+      store3(at(s_.correction, 3 * i), kLanes, inverse_pivot * right);
       for (int span = 0; span < in_.span_count; ++span) {
-        double* next = coupled ? forceResponse(i + 1, span) : nullptr;
-        for (int k = 0; k < 3; ++k) {
-          const int offset = 3 * k * kLanes;
-          solve(forceResponse(i, span) + offset, coupled ? next + offset : nullptr);
+        Matrix3 lever = loadMatrix3(forceResponse(i, span));
+        if (coupled) {
+          lever = lever +
+                  byColumns(loadMatrix3(forceResponse(i + 1, span)), [&](const Vec3& v) { return -(coupling * v); });
         }
+        storeMatrix3(forceResponse(i, span), inverse_pivot * lever);
       }
     }
   }
@@ -239,15 +285,12 @@ class Equilibrium {
         missing = missing - reachChange(span, i, d, load3(at(s_.correction, 3 * i), kLanes));
         if (i < in_.spans[span].last) {
           missing = missing - (axial_ * dot(d, force(i))) * d;
-          addToClosure(span, span, {{axial_ * d.x * d, axial_ * d.y * d, axial_ * d.z * d}});
+          addToClosure(span, span, {(axial_ * d.x) * d, (axial_ * d.y) * d, (axial_ * d.z) * d});
         }
         for (int other = 0; other < in_.span_count; ++other) {
-          const Mat3 turns = loadMat3(forceResponse(i, other), kLanes);
-          Mat3 changes;
-          for (int k = 0; k < 3; ++k) {
-            changes.column[k] = reachChange(span, i, d, turns.column[k]);
-          }
-          addToClosure(span, other, changes);
+          addToClosure(span, other, byColumns(loadMatrix3(forceResponse(i, other)), [&](const Vec3& turn) {
+                         return reachChange(span, i, d, turn);
+                       }));
         }
       }
       store(closure(3 * span, rows), missing.x);
@@ -257,12 +300,13 @@ class Equilibrium {
     eliminateClosure(rows);
   }
 
-  DM_INLINE void addToClosure(int span, int other, const Mat3& block) {
+  DM_INLINE void addToClosure(int span, int other, const Matrix3& block) {
+    const Vec3* columns[3] = {&block.x, &block.y, &block.z};
     for (int k = 0; k < 3; ++k) {
-      const Pack* entries[3] = {&block.column[k].x, &block.column[k].y, &block.column[k].z};
+      const Pack entries[3] = {columns[k]->x, columns[k]->y, columns[k]->z};
       for (int r = 0; r < 3; ++r) {
         double* entry = closure(3 * span + r, 3 * other + k);
-        store(entry, load(entry) + *entries[r]);
+        store(entry, load(entry) + entries[r]);
       }
     }
   }
@@ -306,7 +350,7 @@ class Equilibrium {
     for (int i = 0; i < in_.segments; ++i) {
       if (!in_.clamped[i]) {
         store4(at(s_.orientation, 4 * i), kLanes,
-               rotated(orientation(i), scale * load3(at(s_.correction, 3 * i), kLanes)));
+               rotated(orientation(i), (0.5 * scale) * load3(at(s_.correction, 3 * i), kLanes)));
       }
     }
     for (int span = 0; span < in_.span_count; ++span) {
@@ -346,7 +390,7 @@ class Equilibrium {
   DM_INLINE Vec3 turnByForces(int i) const {
     Vec3 turn = {};
     for (int span = 0; span < in_.span_count; ++span) {
-      turn = turn + loadMat3(forceResponse(i, span), kLanes) * forceChange(span);
+      turn = turn + loadMatrix3(forceResponse(i, span)) * forceChange(span);
     }
     return turn;
   }
@@ -386,7 +430,7 @@ class Equilibrium {
     storeResponse(h, in_.segments, axis, end);
 
     v = start_change;
-    end = broadcast(-1.0) * (half_length_ * v);
+    end = -(half_length_ * v);
     for (int i = start; i > 0; --i) {
       v = tangentChange(i - 1);
       const Vec3 opening = openingChange(i - 1, v);
@@ -412,7 +456,6 @@ class Equilibrium {
   RodEquilibriumLanes& s_;
   const int lane_;
   const Pack half_length_;
-  const Pack inverse_length_;
   const Pack axial_;
   const Vec3 weight_;
   Pack negative_;

@@ -21,7 +21,7 @@ struct RodLanes {
   AlignedArray orientation;           // [N x 4] quaternion x y z w
   AlignedArray previous_orientation;  // [N x 4]
   AlignedArray angular_velocity;      // [N x 3] rad/s, fixed frame
-  AlignedArray multiplier;            // [(N - 1) x 6] joint force times h^2 [N s^2], joint torque times h^2
+  AlignedArray multiplier;            // [(N - 1) x 6] force and torque of the second segment on the first, times h^2
 };
 
 //! A held segment during one substep.
@@ -32,36 +32,45 @@ struct HeldSegment {
   double orientation[4];  // at the end of the substep, where clamped
 };
 
-//! What a substep needs besides the state.
+//! What a substep needs besides the state. Compliances and stiffnesses are per joint and include the time step:
+//! a multiplier is a force or torque times h^2.
 struct RodSubstepInput {
   int segments;
   double h;                                  // s
   double segment_length;                     // m
   double gravity[3];                         // m/s^2
-  double velocity_decay;                     // factor on motion relative to the reference in a substep
   double inertia_ratio;                      // (axial - transverse) / transverse moment of inertia
-  double bending_compliance;                 // 1 / (l E I h^2)
-  double torsion_compliance;                 // 1 / (l G J h^2)
+  double bending_compliance;                 // l / (E I h^2)
+  double torsion_compliance;                 // l / (G J h^2)
+  double bending_stiffness;                  // E I h^2 / l, as far as the direct solver can tell it from rigid
+  double torsion_stiffness;                  // G J h^2 / l, likewise
   double axial_compliance;                   // l / (E A h^2)
   double floor_compliance;                   // keeps the joint's matrix regular when both of its segments are held
   const double* inverse_mass;                // [N] 1/kg, zero where held
   const double* inverse_transverse;          // [N] 1/(kg m^2), zero where clamped
   const double* inverse_axial;               // [N] 1/(kg m^2), zero where clamped
+  const double* transverse_inertia;          // [N] kg m^2, huge where clamped
+  const double* inertia_excess;              // [N] kg m^2, axial - transverse, zero where clamped
   const unsigned char* joint_active;         // [N - 1] false between two held segments
-  const double* reference_velocity;          // [N x 3] m/s, motion of the held points carried along the rod
+  const double* linear_rate;                 // [N] 1/s, velocity per displacement in a substep: damping / h
+  const double* angular_rate;                // [N] 1/s
+  const double* reference_velocity;          // [N x 3] m/s, added to it: the part that is not damped
   const double* reference_angular_velocity;  // [N x 3] rad/s
   const HeldSegment* held;
   int held_count;
   double* workspace;  // direct solver: rodWorkspaceSize() numbers, aligned
 };
 
-//! Numbers in the direct solver's workspace: a 6 x 6 factor, a 6 x 6 coupling and a right-hand side per joint.
+//! Numbers per joint and copy in the direct solver's workspace.
+constexpr int kNumbersPerJoint = 45;
+
+//! Enough for one pack of any width: packs use it one after the other.
 constexpr std::size_t rodWorkspaceSize(int segments) {
-  return static_cast<std::size_t>(segments - 1) * (21 + 36 + 6) * kLanes;
+  return static_cast<std::size_t>(segments - 1) * kNumbersPerJoint * kLanes;
 }
 
-//! A substep of Algorithm 1 for eight copies: predict, solve the joints, update velocities.
-using RodSubstep = void (*)(const RodSubstepInput&, RodLanes&);
+//! A substep of Algorithm 1 for the first copies of eight: predict, solve the joints, update velocities.
+using RodSubstep = void (*)(const RodSubstepInput&, int copies, RodLanes&);
 
 //! The substeps compiled for one instruction set.
 struct RodKernel {

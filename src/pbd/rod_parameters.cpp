@@ -18,6 +18,7 @@ void RodParameters::check(ParameterCheck& check) const {
   check.positive("young_modulus", young_modulus, "[Pa]");
   check.positive("torsion_modulus", torsion_modulus, "[Pa]");
   check.notNegative("damping", damping, "[1/s]");
+  check.require(threads >= 1 && threads <= 256, "threads", threads, "a whole number from 1 to 256");
   check.require(gravity.allFinite(), "gravity", gravity.norm(), "three finite numbers [m/s^2]");
   check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");
   check.require(std::abs(pose.orientation.norm() - 1.0) < 1e-6, "pose.orientation", pose.orientation.norm(),

@@ -62,7 +62,7 @@ Hold toHold(const std::string& name) {
 
 std::unique_ptr<Rod> makeRod(double length, double radius, double density, int segments, double young_modulus,
                              double torsion_modulus, const std::string& stretch, double damping,
-                             const std::string& solver, const Vector3& gravity, const Vector3& position,
+                             const std::string& solver, int threads, const Vector3& gravity, const Vector3& position,
                              const Vector4& orientation) {
   RodParameters p;
   p.length = length;
@@ -75,6 +75,7 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
   p.damping = damping;
   p.solver =
       choose<RodSolver>("solver", solver, {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
+  p.threads = threads;
   p.gravity = gravity;
   p.pose = {position, toQuaternion(orientation)};
   return std::make_unique<Rod>(p);
@@ -226,7 +227,7 @@ void bindBody(py::module_& module) {
           "ParameterError.")
       .def("lay_out", &Body::layOut, "Places all copies, at rest, on a slack curve between the holds.")
       .def("step", &Body::step, py::arg("time_step"), py::arg("substeps"), py::call_guard<py::gil_scoped_release>(),
-           "Advances by time_step [s]. Raises NonFiniteState.")
+           "Advances by time_step [s]. Raises ParameterError, NonFiniteState.")
       .def(
           "settle",
           [](Body& body, double time_step, int substeps, double speed_tolerance, double time_limit) {
@@ -265,12 +266,14 @@ void bindBody(py::module_& module) {
                         "and small substeps. The particles are the segments, the points their N + 1 ends.\n\n"
                         "length, radius [m], density [kg/m^3], young_modulus, torsion_modulus [Pa], damping [1/s] of\n"
                         "motion relative to the held points, gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
-                        "solver 'direct' or 'gauss_seidel'. Undeformed it lies along the x axis of the pose given by\n"
+                        "solver 'direct' or 'gauss_seidel'; threads that advance the copies, eight each. Undeformed it "
+                        "lies along the x axis of the pose given by\n"
                         "position (3,) [m] and orientation (4,). Raises ParameterError.")
       .def(py::init(&makeRod), py::kw_only(), py::arg("length"), py::arg("radius"), py::arg("density"),
            py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch") = "zero",
-           py::arg("damping") = 10.0, py::arg("solver") = "direct", py::arg("gravity") = Vector3(0.0, 0.0, -9.81),
-           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
+           py::arg("damping") = 10.0, py::arg("solver") = "direct", py::arg("threads") = 1,
+           py::arg("gravity") = Vector3(0.0, 0.0, -9.81), py::arg("position") = Vector3::Zero().eval(),
+           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
 void requireCopy(const RodEquilibrium& equilibrium, int copy) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "../../src/pbd/rod_kernel.h"
 #include "rod_fixture.h"
 
 namespace deformable_manipulation {
@@ -119,59 +118,41 @@ TEST(Copies, refuseWhatCannotBe) {
   EXPECT_THROW(rod->addCopy(27, Vector3(0.0, 0.0, 100.0)), std::invalid_argument);
 }
 
-TEST(Kernels, agreeForEveryInstructionSet) {
-  const std::vector<RodKernel> kernels = availableRodKernels();
-  for (bool direct : {false, true}) {
-    std::vector<RodLanes> results;
-    for (const RodKernel& kernel : kernels) {
-      constexpr int n = 12;
-      RodLanes lanes(n);
-      for (int i = 0; i < n; ++i) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-          lanes.position[(3 * i) * kLanes + lane] = 0.1 * i;
-          lanes.position[(3 * i + 2) * kLanes + lane] = 0.01 * lane * std::sin(i);
-          lanes.velocity[(3 * i + 1) * kLanes + lane] = 0.1 * std::cos(i + lane);
-          lanes.angular_velocity[(3 * i + 1) * kLanes + lane] = std::sin(3 * i);
-          lanes.orientation[(4 * i + 3) * kLanes + lane] = 1.0;
-        }
+TEST(Copies, areTheSameForAnyNumberOfThreads) {
+  for (RodSolver solver : {RodSolver::DIRECT, RodSolver::GAUSS_SEIDEL}) {
+    std::vector<std::unique_ptr<Rod>> rods;
+    for (int threads : {1, 3}) {
+      RodParameters p = rope();
+      p.solver = solver;
+      p.threads = threads;
+      rods.push_back(hangingRope(p, 1.5, Hold::CLAMPED));
+      for (int i = 0; i < 20; ++i) {  // three groups of lanes
+        rods.back()->addCopy(27, Vector3(0.01 * std::cos(i), 0.03 * std::sin(i), 0.02 + 0.005 * i));
       }
-      std::vector<double> inverse_mass(n, 200.0), transverse(n, 3e5), axial(n, 3e7), zero(3 * n, 0.0);
-      std::vector<unsigned char> active(n - 1, 1);
-      AlignedArray workspace(rodWorkspaceSize(n));
-      HeldSegment held{};
-      inverse_mass[0] = transverse[0] = axial[0] = 0.0;
-      held.clamped = true;
-      held.orientation[3] = 1.0;
-      RodSubstepInput in{};
-      in.segments = n;
-      in.h = 0.002;
-      in.segment_length = 0.1;
-      in.gravity[2] = -9.81;
-      in.velocity_decay = 0.99;
-      in.inertia_ratio = -0.99;
-      in.bending_compliance = 1.0 / (0.1 * 0.01 * in.h * in.h);
-      in.torsion_compliance = in.bending_compliance;
-      in.floor_compliance = 1e-6;
-      in.inverse_mass = inverse_mass.data();
-      in.inverse_transverse = transverse.data();
-      in.inverse_axial = axial.data();
-      in.joint_active = active.data();
-      in.reference_velocity = in.reference_angular_velocity = zero.data();
-      in.held = &held;
-      in.held_count = 1;
-      in.workspace = workspace.data();
-      for (int step = 0; step < 50; ++step) {
-        (direct ? kernel.direct : kernel.gauss_seidel)(in, lanes);
-      }
-      results.push_back(lanes);
-    }
-    for (std::size_t k = 1; k < results.size(); ++k) {
-      for (std::size_t i = 0; i < results[k].position.size(); ++i) {
-        ASSERT_NEAR(results[k].position[i], results[0].position[i], 1e-9) << kernels[k].instruction_set;
+      rods.back()->setTwist(27, {Vector3(0.0, -0.1, 0.1), Vector3(0.0, 0.2, 0.0)});
+      for (int step = 0; step < 20; ++step) {
+        rods.back()->step(0.01, 37);  // more substeps than are done at once
       }
     }
-    EXPECT_GT(std::abs(results[0].position[(3 * 11 + 2) * kLanes]), 1e-3);  // something has moved
+    for (int copy = 0; copy <= 20; ++copy) {
+      EXPECT_EQ(positions(*rods[0], copy), positions(*rods[1], copy)) << "copy " << copy;
+    }
   }
+}
+
+TEST(Copies, goOnByThemselvesInAClone) {
+  RodParameters p = rope();
+  p.threads = 2;  // shared with the clone
+  auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
+  for (int i = 0; i < 9; ++i) {
+    rod->addCopy(27, Vector3(0.0, 0.0, 0.01 * (i + 1)));
+  }
+  rod->step(0.01, 2);
+  const std::unique_ptr<Body> clone = rod->clone();
+  rod->step(0.01, 2);
+  rod.reset();
+  clone->step(0.01, 2);
+  EXPECT_EQ(clone->copyCount(), 10);
 }
 
 }  // namespace

@@ -165,6 +165,26 @@ TEST(FreeRod, keepsItsMomentum) {
   EXPECT_LT((momentum() - before).norm(), 1e-9 * before.norm());
 }
 
+TEST(Steps, areRefusedWhereTheyCannotBe) {
+  auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  const std::vector<Vector3> before = positions(*rod);
+  for (double time_step : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(rod->step(time_step, 2), std::invalid_argument);
+    EXPECT_THROW(rod->settle({time_step, 2}), std::invalid_argument);
+  }
+  EXPECT_THROW(rod->settle({0.01, 0}), std::invalid_argument);
+  EXPECT_THROW(rod->settle({0.01, 2, std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(rod->settle({0.01, 2, 1e-4, -1.0}), std::invalid_argument);
+  try {
+    rod->step(-0.01, 0);
+    FAIL() << "no exception";
+  } catch (const ParameterError& error) {
+    EXPECT_STREQ(error.what(),
+                 "time_step: -0.01 - must be a finite number > 0 [s]\nsubsteps: 0 - must be a whole number >= 1");
+  }
+  EXPECT_EQ(positions(*rod), before);
+}
+
 TEST(State, thatIsNotFiniteIsReported) {
   RodParameters p = rope();
   p.gravity = Vector3(0.0, 0.0, -1e300);

@@ -130,12 +130,15 @@ class Body {
   //! Places every copy, at rest and undisplaced, on a curve of the right length between the held points.
   virtual void layOut() = 0;
 
-  //! Advances all copies by a time step.
+  //! Advances all copies by a time step [s].
+  //! @throw ParameterError if the time step is not finite and positive or substeps < 1; nothing
+  //! changes then.
   //! @throw NonFiniteState if the state is no longer finite.
   void step(double time_step, int substeps);
 
   //! Advances with the held points at rest until nothing moves any more.
   //! @return whether it settled within the time limit
+  //! @throw ParameterError as for step(), or if tolerance or time limit are not finite or negative
   //! @throw NonFiniteState
   bool settle(const SettleOptions& options);
 
@@ -173,8 +176,12 @@ class Body {
   //! Called before the substeps of a step, with the holds' twists final.
   virtual void beginStep(double h) = 0;
 
-  //! One substep of h [s]; holds() and copies() are where they are at its end.
+  //! One substep of h [s]; holds() and copies() are where they are at its end. A body may note that
+  //! and do several substeps at once, at the latest in endStep().
   virtual void substep() = 0;
+
+  //! Called after the substeps of a step.
+  virtual void endStep() {}
 
   //! First particle of a copy whose state is not finite, or -1.
   virtual int firstNonFinite(int copy) const = 0;

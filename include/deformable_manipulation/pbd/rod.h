@@ -8,6 +8,8 @@
 namespace deformable_manipulation {
 namespace pbd {
 
+struct HeldSegment;
+
 //! A rope or rod: rigid segments, joined by zero-stretch bending-twisting constraints (Deul et al.
 //! 2018), with small substeps (Macklin et al. 2019); Algorithm 1 of the paper.
 //!
@@ -45,6 +47,7 @@ class Rod final : public Body {
   void assignCopy(int to, int from) override;
   void beginStep(double h) override;
   void substep() override;
+  void endStep() override;
   int firstNonFinite(int copy) const override;
   double highestSpeed() const override;
   void stop() override;
@@ -53,7 +56,10 @@ class Rod final : public Body {
   struct State;
   Rod(const Rod& other);
 
+  void resizeHeld();
+  void noteHeld(int first_copy, HeldSegment* to) const;
   void updateReferenceMotion();
+  void dampTowardsReference(double h);
   void placeCopy(int copy, const std::vector<Pose>& segments);
 
   RodParameters parameters_;

@@ -29,6 +29,7 @@ struct RodParameters {
   Stretch stretch = Stretch::ZERO;
   double damping = 10.0;  //!< [1/s] decay rate of motion relative to the held points
   RodSolver solver = RodSolver::DIRECT;
+  int threads = 1;                             //!< that advance the copies, eight in each; results do not depend on it
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  //!< [m/s^2]
   Pose pose;                                   //!< undeformed rod: first end at the position, along the pose's x axis
 

@@ -1,0 +1,113 @@
+#pragma once
+
+// One pack of copies of a rod: access to its part of the state, and what a substep does before
+// and after the joints are solved.
+
+#include "rod_joint.h"
+#include "rod_kernel.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace DEFORMABLE_MANIPULATION_ISA {
+
+//! Where a segment is.
+struct Placement {
+  Vec3 x;
+  Quat q;
+};
+
+//! What the second segment of a joint exerts on the first, times h^2.
+struct JointWrench {
+  Vec3 force;
+  Vec3 torque;
+};
+
+class RodPack {
+ public:
+  RodPack(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
+      : in_(input),
+        position_(lanes.position.data() + first_lane),
+        previous_position_(lanes.previous_position.data() + first_lane),
+        velocity_(lanes.velocity.data() + first_lane),
+        orientation_(lanes.orientation.data() + first_lane),
+        previous_orientation_(lanes.previous_orientation.data() + first_lane),
+        angular_velocity_(lanes.angular_velocity.data() + first_lane),
+        multiplier_(lanes.multiplier.data() + first_lane),
+        first_lane_(first_lane) {}
+
+  DM_INLINE Placement placement(int i) const {
+    return {load3(position_ + at3(i), kLanes), load4(orientation_ + at4(i), kLanes)};
+  }
+
+  DM_INLINE void storeWrench(int j, const JointWrench& wrench) {
+    double* to = multiplier_ + 2 * at3(j);
+    store3(to, kLanes, wrench.force);
+    store3(to + 3 * kLanes, kLanes, wrench.torque);
+  }
+
+  //! Moves all segments as if there were no joints, and the held ones to where they are held.
+  void predict() {
+    for (int i = 0; i < in_.segments; ++i) {
+      predict(i);
+    }
+    for (int n = 0; n < in_.held_count; ++n) {
+      place(in_.held[n]);
+    }
+  }
+
+  //! Stores where a segment is at the end of the substep, and its velocity.
+  DM_INLINE void finish(int i, const Placement& end) {
+    Vec3 moved = end.x - load3(previous_position_ + at3(i), kLanes);
+    Quat turned = rotationBetween(load4(previous_orientation_ + at4(i), kLanes), end.q);
+    const Pack angular_rate = 2.0 * in_.angular_rate[i] * signOf(turned.w);
+    store3(position_ + at3(i), kLanes, end.x);
+    store4(orientation_ + at4(i), kLanes, end.q);
+    store3(velocity_ + at3(i), kLanes,
+           scaleAdd(broadcast(in_.linear_rate[i]), moved, broadcast3(in_.reference_velocity + 3 * i)));
+    store3(angular_velocity_ + at3(i), kLanes,
+           scaleAdd(angular_rate, turned.v, broadcast3(in_.reference_angular_velocity + 3 * i)));
+  }
+
+ private:
+  static std::ptrdiff_t at3(std::ptrdiff_t i) { return 3 * kLanes * i; }
+  static std::ptrdiff_t at4(std::ptrdiff_t i) { return 4 * kLanes * i; }
+
+  DM_INLINE void predict(int i) {
+    const Pack h = broadcast(in_.h);
+    Placement start = placement(i);
+    store3(previous_position_ + at3(i), kLanes, start.x);
+    store4(previous_orientation_ + at4(i), kLanes, start.q);
+    if (in_.inverse_mass[i] > 0.0) {
+      Vec3 v = scaleAdd(h, broadcast3(in_.gravity), load3(velocity_ + at3(i), kLanes));
+      store3(position_ + at3(i), kLanes, scaleAdd(h, v, start.x));
+    }
+    if (in_.inverse_transverse[i] > 0.0) {
+      Vec3 omega = load3(angular_velocity_ + at3(i), kLanes);
+      Vec3 d = tangentOf(start.q);
+      // Gyroscopic torque of a body of revolution: I^-1 (omega x I omega).
+      Vec3 precession = (in_.inertia_ratio * dot(d, omega)) * cross(omega, d);
+      store4(orientation_ + at4(i), kLanes, rotated(start.q, (0.5 * h) * scaleAdd(-h, precession, omega)));
+    }
+  }
+
+  void place(const HeldSegment& held) {
+    store3(position_ + at3(held.segment), kLanes, load3(held.position + first_lane_, kLanes));
+    if (held.clamped) {
+      store4(orientation_ + at4(held.segment), kLanes, {broadcast3(held.orientation), broadcast(held.orientation[3])});
+    }
+  }
+
+  const RodSubstepInput& in_;
+  double* const position_;
+  double* const previous_position_;
+  double* const velocity_;
+  double* const orientation_;
+  double* const previous_orientation_;
+  double* const angular_velocity_;
+  double* const multiplier_;
+  const int first_lane_;
+};
+
+}  // namespace DEFORMABLE_MANIPULATION_ISA
+}  // namespace pbd
+}  // namespace deformable_manipulation

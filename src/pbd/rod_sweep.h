@@ -1,0 +1,102 @@
+#pragma once
+
+// Gauss-Seidel: joint by joint along a rod, each with its own 6 x 6 system.
+
+#include "rod_pack.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace DEFORMABLE_MANIPULATION_ISA {
+
+//! Inverse mass and inertia of a segment; zero where held.
+struct Inverse {
+  Pack mass;
+  Pack transverse;
+  Pack axial;
+};
+
+//! I^-1 v for a segment with tangent d.
+DM_INLINE Vec3 applyInverseInertia(const Inverse& inverse, const Vec3& d, const Vec3& v) {
+  return scaleAdd((inverse.axial - inverse.transverse) * dot(d, v), d, inverse.transverse * v);
+}
+
+class RodSweep {
+ public:
+  RodSweep(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
+      : pack_(input, lanes, first_lane), in_(input), half_length_(broadcast(0.5 * input.segment_length)) {}
+
+  //! One sweep along the chain. Always from the same end: turning round between substeps keeps
+  //! the multipliers from settling.
+  void substep() {
+    pack_.predict();
+    Placement segment = pack_.placement(0);
+    for (int j = 0; j + 1 < in_.segments; ++j) {
+      Placement next = pack_.placement(j + 1);
+      JointWrench wrench = {};
+      if (in_.joint_active[j]) {
+        wrench = solve(j, segment, next);
+      }
+      pack_.storeWrench(j, wrench);
+      pack_.finish(j, segment);
+      segment = next;
+    }
+    pack_.finish(in_.segments - 1, segment);
+  }
+
+ private:
+  DM_INLINE Inverse inverseOf(int i) const {
+    return {broadcast(in_.inverse_mass[i]), broadcast(in_.inverse_transverse[i]), broadcast(in_.inverse_axial[i])};
+  }
+
+  //! Moves the two segments of joint j so that it holds.
+  DM_INLINE JointWrench solve(int j, Placement& first, Placement& second) {
+    Inverse i0 = inverseOf(j);
+    Inverse i1 = inverseOf(j + 1);
+    Joint joint = jointBetween(first.q, tangentOf(first.q), second.q, tangentOf(second.q));
+    const Pack lever0 = half_length_ * i0.transverse;
+    const Pack lever1 = half_length_ * i1.transverse;
+
+    // [ X  Y^T ; Y  Z ] [ force ; moment ] = -[ gap ; 2 k ], the second row times l.
+    const Pack mass = i0.mass + i1.mass + in_.floor_compliance;
+    Symmetric3 x = addOuter(addOuter(isotropic(mass + half_length_ * (lever0 + lever1)),
+                                     in_.axial_compliance - half_length_ * lever0, joint.d0),
+                            -half_length_ * lever1, joint.d1);
+    Matrix3 levers = crossMatrix(lever1 * joint.d1 - lever0 * joint.d0);
+    Matrix3 y = {joint.b(levers.x), joint.b(levers.y), joint.b(levers.z)};
+    const Pack transverse = i0.transverse + i1.transverse;
+    Symmetric3 z = addOuter(isotropic(transverse + in_.bending_compliance), -transverse, joint.k);
+    z = addOuter(z, i0.axial - i0.transverse, joint.b(joint.d0));
+    z = addOuter(z, i1.axial - i1.transverse, joint.b(joint.d1));
+    z = addOuter(z, broadcast(in_.torsion_compliance - in_.bending_compliance), joint.d0);
+
+    // Force first: x^-1 y^T, then what is left for the moment.
+    Symmetric3 p = inverse(x);
+    Vec3 gap = gapOf(joint, first.x, second.x, half_length_);
+    Matrix3 v = y * p;
+    Symmetric3 q = inverse(z - multiplyTransposedAdd(v, y, Symmetric3{}));
+    Vec3 moment = q * multiplyAdd(v, gap, broadcast(-2.0) * joint.k);
+    Vec3 force = -transposedMultiplyAdd(v, moment, p * gap);
+
+    Vec3 torque = -joint.bTransposed(moment);
+    move(j, first, i0, joint.d0, force, crossAdd(half_length_ * joint.d0, force, torque));
+    move(j + 1, second, i1, joint.d1, -force, crossAdd(half_length_ * joint.d1, force, -torque));
+    return {force, torque};
+  }
+
+  //! Moves a segment by an impulse (times h) and an angular impulse (times h).
+  DM_INLINE void move(int i, Placement& place, const Inverse& inverse, const Vec3& d, const Vec3& impulse,
+                      const Vec3& angular) {
+    place.x = scaleAdd(inverse.mass, impulse, place.x);
+    if (in_.inverse_transverse[i] > 0.0) {
+      place.q = rotated(place.q, broadcast(0.5) * applyInverseInertia(inverse, d, angular));
+    }
+  }
+
+  RodPack pack_;
+  const RodSubstepInput& in_;
+  const Pack half_length_;
+};
+
+}  // namespace DEFORMABLE_MANIPULATION_ISA
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,89 @@
+// Nothing is allocated inside a step. This file counts the calls of operator new of the whole
+// test program.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "rod_fixture.h"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, whole > 0 ? whole : alignment);
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new[](std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace deformable_manipulation {
+namespace pbd {
+namespace {
+
+long allocationsIn(Body& body, int substeps) {
+  const long before = allocations;
+  body.step(0.01, substeps);
+  return allocations - before;
+}
+
+TEST(Allocation, isCounted) {
+  const long before = allocations;
+  const auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
+  EXPECT_GT(allocations - before, 10);
+}
+
+TEST(Allocation, doesNotHappenInAStep) {
+  for (RodSolver solver : {RodSolver::DIRECT, RodSolver::GAUSS_SEIDEL}) {
+    for (int threads : {1, 2}) {
+      for (int copies : {1, 7, 13}) {
+        RodParameters p = rope();
+        p.solver = solver;
+        p.threads = threads;
+        const auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
+        for (int i = 1; i < copies; ++i) {
+          rod->addCopy(27, Vector3(0.0, 0.0, 0.01 * i));
+        }
+        rod->setTwist(27, {Vector3(0.0, -0.1, 0.0), Vector3(0.0, 0.0, 0.1)});
+        for (int substeps : {2, 50}) {
+          EXPECT_EQ(allocationsIn(*rod, substeps), 0) << copies << " copies, " << threads << " threads";
+        }
+      }
+    }
+  }
+}
+
+TEST(Allocation, doesNotHappenInAStepOfAFreeRod) {
+  Rod rod(rope());
+  EXPECT_EQ(allocationsIn(rod, 2), 0);
+}
+
+}  // namespace
+}  // namespace pbd
+}  // namespace deformable_manipulation
