@@ -15,8 +15,9 @@ namespace pbd {
 namespace {
 
 // "Zero" stretch is this fraction of the joint's own response to a force. It keeps the chain's
-// matrix regular where a straight piece is taut between two holds, and stays below 1 nm in use.
-constexpr double kFloorCompliance = 1e-8;
+// matrix regular where a straight piece is taut between two holds and bounds the forces of one that
+// is pulled farther than it reaches; a hanging rope grows by some micrometres.
+constexpr double kFloorCompliance = 1e-5;
 
 // Substeps that the threads do before they wait for each other.
 constexpr int kSubstepsAtOnce = 16;
@@ -212,6 +213,9 @@ void Rod::layOut() {
   for (std::size_t copy = 0; copy < state_->groups.size() * kLanes; ++copy) {
     placeCopy(static_cast<int>(copy), segments);
   }
+  for (RodLanes& lanes : state_->groups) {
+    std::fill(lanes.multiplier.begin(), lanes.multiplier.end(), 0.0);
+  }
   stop();
 }
 
@@ -287,6 +291,17 @@ void Rod::dampTowardsReference(double h) {
   }
 }
 
+//! The rigid motion of a free rod gains speed in each substep; such a rod has no copies.
+void Rod::letReferenceFall() {
+  State& s = *state_;
+  const double h = s.input.h;
+  for (int i = 0; i < parameters_.segments; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      s.reference_velocity[3 * i + axis] += (1.0 - h * s.linear_rate[i]) * h * parameters_.gravity[axis];
+    }
+  }
+}
+
 void Rod::substep() {
   State& s = *state_;
   for (std::size_t group = 0; group < s.groups.size(); ++group) {
@@ -325,6 +340,9 @@ void Rod::endStep() {
     const int copies = std::min(copyCount() - group * kLanes, kLanes);
     for (int i = 0; i < s.pending; ++i) {
       input.held = s.heldIn(i, group, holds().size());
+      if (holds().empty()) {
+        letReferenceFall();
+      }
       s.solve(input, copies, s.groups[group]);
     }
   });
@@ -420,7 +438,9 @@ double Rod::highestSpeed() const {
   double highest = 0.0;
   for (int copy = 0; copy < copyCount(); ++copy) {
     for (int i = 0; i < parameters_.segments; ++i) {
-      highest = std::max(highest, read3(state_->groups[copy / kLanes].velocity, i, copy % kLanes).norm());
+      const RodLanes& lanes = state_->groups[copy / kLanes];
+      const double turning = parameters_.segmentLength() * read3(lanes.angular_velocity, i, copy % kLanes).norm();
+      highest = std::max({highest, read3(lanes.velocity, i, copy % kLanes).norm(), turning});
     }
   }
   return highest;

@@ -146,8 +146,13 @@ class RodChain {
     return {rotation, force};
   }
 
+  //! Inertia, and what tension resists to turning across the axis (geometric stiffness, times h^2). Without it a
+  //! chain pulled taut would swing ever wider.
   DM_INLINE Symmetric3 inertia(int i, const Vec3& d) const {
-    return addOuter(isotropic(broadcast(in_.transverse_inertia[i])), broadcast(in_.inertia_excess[i]), d);
+    Pack tension = half_length_ * dot(d, pack_.lastForce(i - 1) + pack_.lastForce(i));
+    tension = tension > Pack{} ? tension : Pack{};
+    return addOuter(isotropic(broadcast(in_.transverse_inertia[i]) + tension),
+                    broadcast(in_.inertia_excess[i]) - tension, d);
   }
 
   //! What joint j yields to its own force, but for stretch from moduli.

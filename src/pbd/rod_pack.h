@@ -39,6 +39,11 @@ class RodPack {
     return {load3(position_ + at3(i), kLanes), load4(orientation_ + at4(i), kLanes)};
   }
 
+  //! Force of joint j on its first segment in the last substep, times h^2; none beyond the ends.
+  DM_INLINE Vec3 lastForce(int j) const {
+    return j >= 0 && j + 1 < in_.segments ? load3(multiplier_ + 2 * at3(j), kLanes) : Vec3{};
+  }
+
   DM_INLINE void storeWrench(int j, const JointWrench& wrench) {
     double* to = multiplier_ + 2 * at3(j);
     store3(to, kLanes, wrench.force);

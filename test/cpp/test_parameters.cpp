@@ -144,11 +144,12 @@ TEST(Simulation, keepsAChangedMaterialOverAReset) {
 }
 
 TEST(Simulation, isRefusedWhenTheObjectComesApart) {
-  const RodParameters p = rope();
+  RodParameters p = rope();
+  p.solver = RodSolver::GAUSS_SEIDEL;  // needs far more substeps
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
   try {
-    Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {}, Clock{0.1, 2, 1});
+    Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {}, Clock{0.2, 1, 1});
     FAIL() << "no exception";
   } catch (const ParameterError& error) {
     EXPECT_EQ(keysOf(error), (std::vector<std::string>{"simulation.time_step"}));

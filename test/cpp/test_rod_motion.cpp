@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <tuple>
 
 #include "deformable_manipulation/pbd/errors.h"
 #include "rod_fixture.h"
@@ -139,6 +140,74 @@ INSTANTIATE_TEST_SUITE_P(BothSolvers, Energy, testing::Values(RodSolver::DIRECT,
                          [](const testing::TestParamInfo<RodSolver>& info) {
                            return info.param == RodSolver::DIRECT ? "direct" : "gaussSeidel";
                          });
+
+TEST(FreeRod, fallsFreelyWhateverItsDamping) {
+  for (int substeps : {1, 2, 10}) {
+    Rod rod(rope());
+    for (int i = 0; i < 100; ++i) {
+      rod.step(0.01, substeps);
+    }
+    for (const Vector3& v : velocities(rod)) {
+      EXPECT_NEAR((v - Vector3(0.0, 0.0, -9.81)).norm(), 0.0, 1e-9) << substeps << " substeps";
+    }
+  }
+}
+
+TEST(Settling, waitsUntilNothingTurns) {
+  RodParameters p = rope();
+  p.gravity.setZero();
+  Rod rod(p);
+  const Vector3 axis = Vector3::UnitY();
+  rod.hold(0, Hold::CLAMPED);
+  rod.hold(27, Hold::CLAMPED);
+  rod.setTwist(27, {Vector3::Zero(), 0.5 * axis});
+  for (int i = 0; i < 200; ++i) {
+    rod.step(0.01, 2);  // to 1 rad
+  }
+  SettleOptions options;
+  options.speed_tolerance = 1e-9;
+  ASSERT_TRUE(rod.settle(options));
+  rod.step(0.01, 2);
+  // The twist of a joint is 2 sin(angle / 2); the free length is that from grip to grip.
+  const double angle = 1.0 / 27.0;
+  const double expected = p.torsionStiffness() / p.segmentLength() * std::sin(angle);
+  EXPECT_NEAR(rod.wrench(27).torque.dot(axis) / -expected, 1.0, 1e-6);
+}
+
+//! A rope drawn taut, a little farther than it reaches, and slack again.
+class TautRope : public testing::TestWithParam<std::tuple<int, int, Hold>> {};
+
+TEST_P(TautRope, restsAndRecovers) {
+  const auto [segments, substeps, hold] = GetParam();
+  const RodParameters p = rope(segments);
+  const double reach = p.length - p.segmentLength();
+  auto rod = hangingRope(p, 0.9 * reach, hold);
+  ASSERT_TRUE(rod->settle(SettleOptions()));
+  const auto draw = [&rod, &p, n = substeps](double speed, int steps) {
+    rod->setTwist(p.segments - 1, {Vector3(0.0, speed, 0.0), Vector3::Zero()});
+    for (int i = 0; i < steps; ++i) {
+      rod->step(0.01, n);
+    }
+  };
+  const auto fastest = [&rod] {
+    double highest = 0.0;
+    for (const Vector3& v : velocities(*rod)) {
+      highest = std::max(highest, v.norm());
+    }
+    return highest;
+  };
+  draw(0.15 * reach, 100);  // to 1.05 of its reach
+  draw(0.0, 100);
+  EXPECT_LT(fastest(), 0.01);
+  draw(-0.35 * reach, 100);
+  draw(0.0, 500);
+  EXPECT_LT(fastest(), 1e-6);
+  EXPECT_LT(std::abs(rod->stretch()), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Resolutions, TautRope,
+                         testing::Combine(testing::Values(28, 100), testing::Values(2, 10),
+                                          testing::Values(Hold::CLAMPED, Hold::PINNED)));
 
 TEST(FreeRod, keepsItsMomentum) {
   RodParameters p = rope();

@@ -186,7 +186,7 @@ class Body {
   //! First particle of a copy whose state is not finite, or -1.
   virtual int firstNonFinite(int copy) const = 0;
 
-  //! [m/s] of the fastest particle of all copies.
+  //! [m/s] of the fastest particle of all copies; turning counts by what it moves within a particle's size.
   virtual double highestSpeed() const = 0;
 
   //! Takes all velocities away.

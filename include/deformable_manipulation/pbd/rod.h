@@ -60,6 +60,7 @@ class Rod final : public Body {
   void noteHeld(int first_copy, HeldSegment* to) const;
   void updateReferenceMotion();
   void dampTowardsReference(double h);
+  void letReferenceFall();
   void placeCopy(int copy, const std::vector<Pose>& segments);
 
   RodParameters parameters_;
