@@ -98,7 +98,11 @@ void MinimumDistance::addFeatures(const ObjectView& object) {
       features[k].obstacle = static_cast<int>(i);
     }
   }
+  if (features.empty() && !obstacles_.empty()) {  // rounding, far from the origin
+    features.push_back(nearest_[0]);
+  }
   std::stable_sort(features.begin(), features.end(), nearer);
+  nearest_[0].distance = features.empty() ? nearest_[0].distance : features[0].distance;
 }
 
 }  // namespace distance
