@@ -7,39 +7,37 @@ namespace {
 //! Squared distances [m^2] between a segment and some edges, end by end.
 struct GroupDistances {
   GroupDistances(const Segment2& s, const EdgeGroup& g) {
-    const double half_length = 0.5 * s.length;
-    for (int k = 0; k < kGroup; ++k) {
-      const double du = g.direction_u[k], dv = g.direction_v[k];
-      const double su = s.start.u - g.middle_u[k], sv = s.start.v - g.middle_v[k];
-      const double eu = s.end.u - g.middle_u[k], ev = s.end.v - g.middle_v[k];
-      start_across[k] = du * sv - dv * su;
-      end_across[k] = du * ev - dv * eu;
-      const double start_beyond = std::max(std::fabs(du * su + dv * sv) - g.half[k], 0.0);
-      const double end_beyond = std::max(std::fabs(du * eu + dv * ev) - g.half[k], 0.0);
-      from_start[k] = start_beyond * start_beyond + start_across[k] * start_across[k];
-      from_end[k] = end_beyond * end_beyond + end_across[k] * end_across[k];
+    const Four su = s.start.u - g.middle.u, sv = s.start.v - g.middle.v;
+    const Four eu = s.end.u - g.middle.u, ev = s.end.v - g.middle.v;
+    start_across = g.direction.u * sv - g.direction.v * su;
+    end_across = g.direction.u * ev - g.direction.v * eu;
+    const Four start_beyond = larger(absolute(g.direction.u * su + g.direction.v * sv) - g.half, Four{});
+    const Four end_beyond = larger(absolute(g.direction.u * eu + g.direction.v * ev) - g.half, Four{});
+    from_start = start_beyond * start_beyond + start_across * start_across;
+    from_end = end_beyond * end_beyond + end_across * end_across;
 
-      const double cu = g.start_u[k] - s.middle.u, cv = g.start_v[k] - s.middle.v;
-      const double nu = g.end_u[k] - s.middle.u, nv = g.end_v[k] - s.middle.v;
-      along[k] = s.direction.u * cu + s.direction.v * cv;
-      const double corner_across = s.direction.u * cv - s.direction.v * cu;
-      const double next_across = s.direction.u * nv - s.direction.v * nu;
-      const double corner_beyond = std::max(std::fabs(along[k]) - half_length, 0.0);
-      from_corner[k] = corner_beyond * corner_beyond + corner_across * corner_across;
-      crossing[k] = ((start_across[k] > 0.0) != (end_across[k] > 0.0)) & ((corner_across > 0.0) != (next_across > 0.0));
-    }
+    const Four cu = g.start.u - s.middle.u, cv = g.start.v - s.middle.v;
+    const Four nu = g.end.u - s.middle.u, nv = g.end.v - s.middle.v;
+    along = s.direction.u * cu + s.direction.v * cv;
+    const Four corner_across = s.direction.u * cv - s.direction.v * cu;
+    const Four next_across = s.direction.u * nv - s.direction.v * nu;
+    const Four corner_beyond = larger(absolute(along) - 0.5 * s.length, Four{});
+    from_corner = corner_beyond * corner_beyond + corner_across * corner_across;
+    crossing = ((start_across > 0.0) != (end_across > 0.0)) & ((corner_across > 0.0) != (next_across > 0.0));
   }
+
+  bool anyCrossing() const { return (crossing[0] | crossing[1] | crossing[2] | crossing[3]) != 0; }
 
   //! The segment's parameter where it crosses an edge.
   double crossingParameter(int k) const { return start_across[k] / (start_across[k] - end_across[k]); }
 
-  double start_across[kGroup];  // m, of the segment's start to the left of the edge
-  double end_across[kGroup];    // m, of its end
-  double from_start[kGroup];    // m^2, of the segment's start to the edge
-  double from_end[kGroup];      // m^2, of its end
-  double from_corner[kGroup];   // m^2, of the edge's first corner to the segment
-  double along[kGroup];         // m, of that corner along the segment from its middle
-  bool crossing[kGroup];        // whether segment and edge cross
+  Four start_across;                 // m, of the segment's start to the left of the edge
+  Four end_across;                   // m, of its end
+  Four from_start;                   // m^2, of the segment's start to the edge
+  Four from_end;                     // m^2, of its end
+  Four from_corner;                  // m^2, of the edge's first corner to the segment
+  Four along;                        // m, of that corner along the segment from its middle
+  decltype(along > along) crossing;  // whether segment and edge cross
 };
 
 }  // namespace
@@ -50,6 +48,10 @@ BoundaryApproach approachBoundary(const EdgeTree& tree, const Segment2& segment,
   limit = tree.limitFor(nearest, segment.middle);
   tree.visitNear(SegmentBound(segment), limit, [&](const EdgeGroup& group) {
     const GroupDistances distances(segment, group);
+    const Four ends = smaller(distances.from_start, distances.from_end);
+    if (!distances.anyCrossing() && least(smaller(ends, distances.from_corner)) > nearest) {
+      return;
+    }
     for (int k = 0; k < kGroup; ++k) {
       const int index = group.index[k];
       if (distances.from_start[k] < start.squared) {
@@ -66,9 +68,9 @@ BoundaryApproach approachBoundary(const EdgeTree& tree, const Segment2& segment,
         crossed = {0.0, distances.crossingParameter(k), index};
       }
     }
-    const double least = crossed.edge >= 0 ? 0.0 : std::min({start.squared, end.squared, corner.squared});
-    if (least < nearest) {
-      nearest = least;
+    const double now = crossed.edge >= 0 ? 0.0 : std::min({start.squared, end.squared, corner.squared});
+    if (now < nearest) {
+      nearest = now;
       limit = tree.limitFor(nearest, segment.middle);
     }
   });

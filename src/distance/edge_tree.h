@@ -2,21 +2,34 @@
 
 #include <vector>
 
+#include "four.h"
 #include "planar_ring.h"
 
 namespace deformable_manipulation {
 namespace distance {
 
-constexpr int kGroup = 4;  //!< edges that are compared at once
+constexpr int kGroup = 4;  //!< edges, or boxes, that are compared at once
+
+//! Four points of the plane.
+struct FourPoints {
+  void set(int k, const Point2& point) {
+    u[k] = point.u;
+    v[k] = point.v;
+  }
+
+  Four u, v;
+};
 
 //! Some edges, the last one repeated where there are fewer than kGroup.
 struct EdgeGroup {
-  double start_u[kGroup], start_v[kGroup];
-  double end_u[kGroup], end_v[kGroup];
-  double middle_u[kGroup], middle_v[kGroup];
-  double direction_u[kGroup], direction_v[kGroup];
-  double half[kGroup];  // m, half the length
-  int index[kGroup];    // in the ring
+  FourPoints start, end, middle, direction;
+  Four half;          // m, half the length
+  int index[kGroup];  // in the ring
+};
+
+//! Rectangles along the axes.
+struct BoxGroup {
+  FourPoints lower, upper;
 };
 
 //! The edge nearest to a point.
@@ -27,24 +40,33 @@ struct NearestEdge {
 
 //! How far boxes are at least from a point [m^2].
 struct PointBound {
-  double operator()(const Box2& box) const { return box.squaredDistance(point); }
+  Four operator()(const BoxGroup& boxes) const {
+    const Four u = broadcast(point.u), v = broadcast(point.v);
+    const Four beyond_u = larger(larger(boxes.lower.u - u, u - boxes.upper.u), Four{});
+    const Four beyond_v = larger(larger(boxes.lower.v - v, v - boxes.upper.v), Four{});
+    return beyond_u * beyond_u + beyond_v * beyond_v;
+  }
+
   Point2 point;
 };
 
-//! How far boxes are at least from a segment [m^2].
+//! How far boxes are at least from a segment [m^2], by its own box and by the line through it.
 struct SegmentBound {
   explicit SegmentBound(const Segment2& s) : segment(s) {
     box.add(s.start);
     box.add(s.end);
   }
 
-  double operator()(const Box2& other) const {
-    const double u = std::max(std::max(box.lower.u - other.upper.u, other.lower.u - box.upper.u), 0.0);
-    const double v = std::max(std::max(box.lower.v - other.upper.v, other.lower.v - box.upper.v), 0.0);
-    const Point2 half = 0.5 * (other.upper - other.lower), direction = segment.direction;
-    const double aside = std::fabs(segment.across(other.lower + half)) - std::fabs(direction.v) * half.u -
-                         std::fabs(direction.u) * half.v;
-    return std::max(u * u + v * v, aside > 0.0 ? aside * aside : 0.0);
+  Four operator()(const BoxGroup& boxes) const {
+    const Four beyond_u = larger(larger(boxes.lower.u - box.upper.u, box.lower.u - boxes.upper.u), Four{});
+    const Four beyond_v = larger(larger(boxes.lower.v - box.upper.v, box.lower.v - boxes.upper.v), Four{});
+    const double along_u = segment.direction.u, along_v = segment.direction.v;
+    const Four twice_u = boxes.upper.u + boxes.lower.u - 2.0 * segment.middle.u;
+    const Four twice_v = boxes.upper.v + boxes.lower.v - 2.0 * segment.middle.v;
+    const Four extent =
+        std::fabs(along_v) * (boxes.upper.u - boxes.lower.u) + std::fabs(along_u) * (boxes.upper.v - boxes.lower.v);
+    const Four aside = 0.5 * larger(absolute(along_u * twice_v - along_v * twice_u) - extent, Four{});
+    return larger(beyond_u * beyond_u + beyond_v * beyond_v, aside * aside);
   }
 
   Segment2 segment;
@@ -67,55 +89,60 @@ class EdgeTree {
   }
 
   //! Calls visit(group) for all groups with an edge within a distance, and others, the nearer boxes first.
-  //! @param bound how far a box is at least: PointBound or SegmentBound
+  //! @param bound how far boxes are at least: PointBound or SegmentBound
   //! @param limit [m^2] the distance squared, which visit may lower
   template <typename Bound, typename Visit>
   void visitNear(const Bound& bound, const double& limit, Visit&& visit) const;
 
  private:
   struct Node {
-    Box2 box;
-    int first_child = -1;  // the second one follows; none in a leaf
-    int group = -1;
+    BoxGroup boxes;     // of the children
+    int child[kGroup];  // another node, or -1 - g for group g
+    int children = 0;
   };
   struct Waiting {
     int node;
     double squared;
   };
 
-  void build(int node, int* first, int* last);
-  void addGroup(const int* first, const int* last);
+  int build(int* first, int* last);
+  int addGroup(const int* first, const int* last);
+  Box2 boxOf(const int* first, const int* last) const;
+  int* split(int* first, int* last, int groups) const;
 
   const PlanarRing& ring_;
   const double size_;  // m, of the ring
   std::vector<Node> nodes_;
   std::vector<EdgeGroup> groups_;
+  int root_;
 };
 
 template <typename Bound, typename Visit>
 void EdgeTree::visitNear(const Bound& bound, const double& limit, Visit&& visit) const {
-  Waiting waiting[64];  // the tree is balanced: one of them for each level
+  Waiting waiting[64];  // three for each level of the tree, which is balanced
   int count = 0;
-  waiting[count++] = {0, bound(nodes_[0].box)};
+  waiting[count++] = {root_, 0.0};
   while (count > 0) {
     const Waiting next = waiting[--count];
     if (next.squared > limit) {
       continue;
     }
-    const Node& node = nodes_[next.node];
-    if (node.first_child < 0) {
-      visit(groups_[node.group]);
+    if (next.node < 0) {
+      visit(groups_[-1 - next.node]);
       continue;
     }
-    Waiting nearer = {node.first_child, bound(nodes_[node.first_child].box)};
-    Waiting farther = {node.first_child + 1, bound(nodes_[node.first_child + 1].box)};
-    if (farther.squared < nearer.squared) {
-      std::swap(nearer, farther);
+    const Node& node = nodes_[next.node];
+    const Four squared = bound(node.boxes);
+    const int first = count;
+    for (int k = 0; k < node.children; ++k) {
+      if (squared[k] <= limit) {
+        int place = count++;
+        for (; place > first && waiting[place - 1].squared < squared[k]; --place) {
+          waiting[place] = waiting[place - 1];
+        }
+        waiting[place] = {node.child[k], squared[k]};
+      }
     }
-    waiting[count] = farther;
-    count += farther.squared <= limit;
-    waiting[count] = nearer;
-    count += nearer.squared <= limit;
   }
 }
 

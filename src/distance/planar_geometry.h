@@ -70,12 +70,6 @@ struct Box2 {
     upper = {std::max(upper.u, point.u), std::max(upper.v, point.v)};
   }
 
-  double squaredDistance(const Point2& point) const {
-    const double u = std::max(std::max(lower.u - point.u, point.u - upper.u), 0.0);
-    const double v = std::max(std::max(lower.v - point.v, point.v - upper.v), 0.0);
-    return u * u + v * v;
-  }
-
   Point2 lower = {INFINITY, INFINITY};
   Point2 upper = {-INFINITY, -INFINITY};
 };

@@ -41,12 +41,7 @@ void PlanarLocalMinima::measureLine(const PlanarCopy& line) {
 //! Places such that between two neighbouring ones there is no local minimum below the limit.
 void PlanarLocalMinima::collect(double limit) {
   places_.clear();
-  const std::vector<double>& lower = polyline_.lowerBounds(line_);
-  for (int i = 0; i + 1 < line_.count; ++i) {
-    if (lower[i] <= limit + kBoundSlack) {
-      collectOnSegment(i, limit);
-    }
-  }
+  polyline_.visitNear(line_, limit + kBoundSlack, [&](int segment) { collectOnSegment(segment, limit); });
 }
 
 void PlanarLocalMinima::collectOnSegment(int i, double limit) {

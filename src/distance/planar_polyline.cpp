@@ -10,48 +10,39 @@ MaterialPoint onSegment(int segment, const SegmentNearest& nearest) {
           {1.0 - nearest.parameter, nearest.parameter, 0.0}};
 }
 
-const std::vector<double>& PlanarPolyline::lowerBounds(const PlanarCopy& line) {
-  of_points_.resize(line.count);
-  of_segments_.resize(line.count - 1);
-  for (int i = 0; i < line.count; ++i) {
-    of_points_[i] = region_.lowerBound(line.points[i]);
+//! Not more than the signed distance [m] anywhere from one point to another one: by how far the line is around a
+//! point in the middle.
+double PlanarPolyline::blockBound(const PlanarCopy& line, int first, int last) const {
+  const Point2 middle = line.points[(first + last) / 2];
+  double reach = 0.0;
+  for (int i = first; i <= last; ++i) {
+    reach = std::max(reach, normBound(line.points[i] - middle));
   }
-  // A signed distance changes by no more than the way along the segment.
-  for (int i = 0; i + 1 < line.count; ++i) {
-    const double length = normBound(line.points[i + 1] - line.points[i]);
-    of_segments_[i] = 0.5 * (of_points_[i] + of_points_[i + 1] - length);
-  }
-  return of_segments_;
+  return region_.lowerBound(middle) - reach;
 }
 
 MaterialPoint PlanarPolyline::minimum(const PlanarCopy& line, double bound) {
-  const std::vector<double>& lower = lowerBounds(line);
   SegmentNearest best;
   int best_segment = 0;
   bound += kBoundSlack;
-  for (int i = 0; i + 1 < line.count; ++i) {
-    if (lower[i] <= bound) {
-      const SegmentNearest nearest = region_.nearest({line.points[i], line.points[i + 1]}, bound);
-      if (nearest.distance < best.distance) {
-        best = nearest;
-        best_segment = i;
-        bound = std::min(bound, best.distance);
-      }
+  visitNear(line, bound, [&](int i) {
+    const SegmentNearest nearest = region_.nearest({line.points[i], line.points[i + 1]}, bound);
+    if (nearest.distance < best.distance) {
+      best = nearest;
+      best_segment = i;
+      bound = std::min(bound, best.distance);
     }
-  }
+  });
   return onSegment(best_segment, best);
 }
 
 void PlanarPolyline::elements(const PlanarCopy& line, double limit, std::vector<MaterialPoint>* found) {
-  const std::vector<double>& lower = lowerBounds(line);
-  for (int i = 0; i + 1 < line.count; ++i) {
-    if (lower[i] <= limit + kBoundSlack) {
-      const SegmentNearest nearest = region_.nearestMiddle({line.points[i], line.points[i + 1]}, limit);
-      if (nearest.distance <= limit) {
-        found->push_back(onSegment(i, nearest));
-      }
+  visitNear(line, limit + kBoundSlack, [&](int i) {
+    const SegmentNearest nearest = region_.nearestMiddle({line.points[i], line.points[i + 1]}, limit);
+    if (nearest.distance <= limit) {
+      found->push_back(onSegment(i, nearest));
     }
-  }
+  });
 }
 
 }  // namespace distance

@@ -19,16 +19,40 @@ class PlanarPolyline {
   //! with the boundary, the middle of the nearest stretch.
   void elements(const PlanarCopy& line, double limit, std::vector<MaterialPoint>* found);
 
-  //! Lower bounds [m] of the signed distances of the segments.
-  const std::vector<double>& lowerBounds(const PlanarCopy& line);
+  //! Calls visit(segment) for each segment, in order, whose signed distance may be at most a limit [m], which visit
+  //! may lower.
+  template <typename Visit>
+  void visitNear(const PlanarCopy& line, const double& limit, Visit&& visit) const;
 
  private:
+  static constexpr int kBlock = 4;  // segments that are passed over together
+
+  double blockBound(const PlanarCopy& line, int first, int last) const;
+
   PlanarRegion& region_;
-  std::vector<double> of_points_, of_segments_;
 };
 
 //! A point of a polyline.
 MaterialPoint onSegment(int segment, const SegmentNearest& nearest);
+
+template <typename Visit>
+void PlanarPolyline::visitNear(const PlanarCopy& line, const double& limit, Visit&& visit) const {
+  for (int first = 0, last; first + 1 < line.count; first = last) {
+    last = std::min(first + kBlock, line.count - 1);
+    if (blockBound(line, first, last) > limit) {
+      continue;
+    }
+    double before = region_.lowerBound(line.points[first]);
+    for (int i = first; i < last; ++i) {
+      const double after = region_.lowerBound(line.points[i + 1]);
+      // A signed distance changes by no more than the way along the segment.
+      if (0.5 * (before + after - normBound(line.points[i + 1] - line.points[i])) <= limit) {
+        visit(i);
+      }
+      before = after;
+    }
+  }
+}
 
 }  // namespace distance
 }  // namespace deformable_manipulation
