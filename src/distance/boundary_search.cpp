@@ -19,25 +19,34 @@ struct GroupDistances {
     const Four cu = g.start.u - s.middle.u, cv = g.start.v - s.middle.v;
     const Four nu = g.end.u - s.middle.u, nv = g.end.v - s.middle.v;
     along = s.direction.u * cu + s.direction.v * cv;
-    const Four corner_across = s.direction.u * cv - s.direction.v * cu;
-    const Four next_across = s.direction.u * nv - s.direction.v * nu;
+    corner_across = s.direction.u * cv - s.direction.v * cu;
+    next_across = s.direction.u * nv - s.direction.v * nu;
     const Four corner_beyond = larger(absolute(along) - 0.5 * s.length, Four{});
     from_corner = corner_beyond * corner_beyond + corner_across * corner_across;
-    crossing = ((start_across > 0.0) != (end_across > 0.0)) & ((corner_across > 0.0) != (next_across > 0.0));
   }
 
-  bool anyCrossing() const { return (crossing[0] | crossing[1] | crossing[2] | crossing[3]) != 0; }
+  //! Whether the segment crosses an edge.
+  bool crosses(int k) const {
+    return (start_across[k] > 0.0) != (end_across[k] > 0.0) && (corner_across[k] > 0.0) != (next_across[k] > 0.0);
+  }
+
+  //! False only if it crosses none.
+  bool mayCross() const {
+    const Four edge_sides = start_across * end_across, segment_sides = corner_across * next_across;
+    return least(larger(edge_sides, segment_sides)) <= 0.0;
+  }
 
   //! The segment's parameter where it crosses an edge.
   double crossingParameter(int k) const { return start_across[k] / (start_across[k] - end_across[k]); }
 
-  Four start_across;                 // m, of the segment's start to the left of the edge
-  Four end_across;                   // m, of its end
-  Four from_start;                   // m^2, of the segment's start to the edge
-  Four from_end;                     // m^2, of its end
-  Four from_corner;                  // m^2, of the edge's first corner to the segment
-  Four along;                        // m, of that corner along the segment from its middle
-  decltype(along > along) crossing;  // whether segment and edge cross
+  Four start_across;   // m, of the segment's start to the left of the edge
+  Four end_across;     // m, of its end
+  Four from_start;     // m^2, of the segment's start to the edge
+  Four from_end;       // m^2, of its end
+  Four from_corner;    // m^2, of the edge's first corner to the segment
+  Four along;          // m, of that corner along the segment from its middle
+  Four next_across;    // m, of the next corner to the left of the segment
+  Four corner_across;  // m, of that corner
 };
 
 }  // namespace
@@ -49,7 +58,7 @@ BoundaryApproach approachBoundary(const EdgeTree& tree, const Segment2& segment,
   tree.visitNear(SegmentBound(segment), limit, [&](const EdgeGroup& group) {
     const GroupDistances distances(segment, group);
     const Four ends = smaller(distances.from_start, distances.from_end);
-    if (!distances.anyCrossing() && least(smaller(ends, distances.from_corner)) > nearest) {
+    if (!distances.mayCross() && least(smaller(ends, distances.from_corner)) > nearest) {
       return;
     }
     for (int k = 0; k < kGroup; ++k) {
@@ -64,7 +73,7 @@ BoundaryApproach approachBoundary(const EdgeTree& tree, const Segment2& segment,
       if (squared < corner.squared || (squared == corner.squared && index < corner.edge)) {
         corner = {squared, distances.along[k], index};
       }
-      if (distances.crossing[k] && (crossed.edge < 0 || index < crossed.edge)) {
+      if (distances.crosses(k) && (crossed.edge < 0 || index < crossed.edge)) {
         crossed = {0.0, distances.crossingParameter(k), index};
       }
     }

@@ -14,22 +14,14 @@ class DistanceGrid {
 
   //! Not more than the signed distance [m] of a point, wherever it is.
   double lowerBound(const Point2& point) const {
-    const Point2 inside = clamped(point);
-    const int column = columnOf(inside), row = rowOf(inside);
-    const double bound = cells_[row * columns_ + column].distance - normBound(inside - middleOf(column, row));
-    const Point2 beyond = point - inside;
-    if (beyond.u == 0.0 && beyond.v == 0.0) {
-      return bound;
-    }
-    // Seen from a box around the ring, all of the ring is on the other side of the nearest point.
-    const double positive = std::max(bound, 0.0);
-    return std::sqrt(squaredNorm(beyond) + positive * positive) * (1.0 - 1e-12);
+    const Point2 place = cells_per_metre_ * (point - lower_);
+    return covers(place) ? boundAt(place) : boundOutside(point);
   }
 
   //! The edge nearest to the middle of a point's cell.
   int guess(const Point2& point) const {
-    const Point2 inside = clamped(point);
-    return cells_[rowOf(inside) * columns_ + columnOf(inside)].edge;
+    const Point2 place = cells_per_metre_ * (point - lower_);
+    return cells_[cellOf(covers(place) ? place : clamped(place))].edge;
   }
 
  private:
@@ -38,22 +30,23 @@ class DistanceGrid {
     int edge;        // nearest to the middle
   };
 
-  Point2 clamped(const Point2& point) const {
-    return {std::min(std::max(point.u, box_.lower.u), box_.upper.u),
-            std::min(std::max(point.v, box_.lower.v), box_.upper.v)};
+  // Places count in cells from the grid's lower corner.
+  bool covers(const Point2& place) const {
+    return place.u >= 0.0 && place.v >= 0.0 && place.u < columns_ && place.v < rows_;
   }
-  int columnOf(const Point2& inside) const {
-    return std::min(static_cast<int>((inside.u - box_.lower.u) * cells_per_metre_), columns_ - 1);
+  Point2 clamped(const Point2& place) const {
+    return {std::min(std::max(place.u, 0.0), columns_ - 0.5), std::min(std::max(place.v, 0.0), rows_ - 0.5)};
   }
-  int rowOf(const Point2& inside) const {
-    return std::min(static_cast<int>((inside.v - box_.lower.v) * cells_per_metre_), rows_ - 1);
+  int cellOf(const Point2& place) const { return static_cast<int>(place.v) * columns_ + static_cast<int>(place.u); }
+  double boundAt(const Point2& place) const {
+    const int column = static_cast<int>(place.u), row = static_cast<int>(place.v);
+    const Point2 arm = {place.u - (column + 0.5), place.v - (row + 0.5)};
+    return cells_[row * columns_ + column].distance - cell_ * normBound(arm);
   }
-  Point2 middleOf(int column, int row) const {
-    return {box_.lower.u + (column + 0.5) * cell_, box_.lower.v + (row + 0.5) * cell_};
-  }
+  double boundOutside(const Point2& point) const;
 
-  Box2 box_;
-  double cell_;  // m, side of a cell
+  Point2 lower_;  // m, corner of the grid
+  double cell_;   // m, side of a cell
   double cells_per_metre_;
   int columns_, rows_;
   std::vector<Cell> cells_;

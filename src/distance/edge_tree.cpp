@@ -72,7 +72,7 @@ int EdgeTree::addGroup(const int* first, const int* last) {
     group.end.set(k, edge.end);
     group.middle.set(k, edge.middle);
     group.direction.set(k, edge.direction);
-    group.half[k] = 0.5 * edge.length;
+    group.half.set(k, 0.5 * edge.length);
     group.index[k] = index;
   }
   groups_.push_back(group);

@@ -13,8 +13,8 @@ constexpr int kGroup = 4;  //!< edges, or boxes, that are compared at once
 //! Four points of the plane.
 struct FourPoints {
   void set(int k, const Point2& point) {
-    u[k] = point.u;
-    v[k] = point.v;
+    u.set(k, point.u);
+    v.set(k, point.v);
   }
 
   Four u, v;

@@ -25,7 +25,21 @@ class PlanarFrame {
     offset_ = {-u_.dot(translation) - origin_.u, -v_.dot(translation) - origin_.v};
   }
 
-  Point2 project(const Vector3& point) const { return {u_.dot(point) + offset_.u, v_.dot(point) + offset_.v}; }
+  Point2 project(const Vector3& point) const {
+    Point2 flat;
+    project(point.data(), 1, &flat);
+    return flat;
+  }
+
+  //! Points [count x 3] to points of the plane [count].
+  void project(const double* points, int count, Point2* flat) const {
+    const double ux = u_.x(), uy = u_.y(), uz = u_.z(), vx = v_.x(), vy = v_.y(), vz = v_.z();
+    const Point2 offset = offset_;
+    for (int i = 0; i < count; ++i) {
+      const double x = points[3 * i], y = points[3 * i + 1], z = points[3 * i + 2];
+      flat[i] = {ux * x + uy * y + uz * z + offset.u, vx * x + vy * y + vz * z + offset.v};
+    }
+  }
 
   //! A vector in the plane as one of the fixed frame.
   Vector3 lift(const Point2& vector) const { return vector.u * u_ + vector.v * v_; }

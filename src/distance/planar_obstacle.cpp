@@ -103,19 +103,19 @@ class PlanarObstacle::Search {
  private:
   PlanarCopy projected(const ObjectView& object, int copy) {
     flat_.resize(object.point_count);
-    for (int i = 0; i < object.point_count; ++i) {
-      flat_[i] = frame_.project(object.point(copy, i));
-    }
+    frame_.project(object.points + 3L * copy * object.point_count, object.point_count, flat_.data());
     return {flat_.data(), object.point_count};
   }
 
-  //! The signed distance [m] of the material point that was the nearest of this copy last.
+  //! Not less than the signed distance [m] of the material point that was the nearest of this copy last.
   double boundFor(const PlanarCopy& copy, const MaterialPoint& last) const {
     const std::array<int, 3>& vertices = last.vertices;
     if (!(last.distance < INFINITY) || *std::max_element(vertices.begin(), vertices.end()) >= copy.count) {
       return kUnbounded;
     }
-    return region_.signedPoint(copy.at(last), last.edge).distance;
+    const Point2 point = copy.at(last);
+    return last.distance > 0.0 ? region_.ring().edge(last.edge).distance(point)
+                               : region_.signedPoint(point, last.edge).distance;
   }
 
   PlanarSurface& surface() {

@@ -10,15 +10,16 @@ MaterialPoint onSegment(int segment, const SegmentNearest& nearest) {
           {1.0 - nearest.parameter, nearest.parameter, 0.0}};
 }
 
-//! Not more than the signed distance [m] anywhere from one point to another one: by how far the line is around a
-//! point in the middle.
-double PlanarPolyline::blockBound(const PlanarCopy& line, int first, int last) const {
+//! Whether the signed distance may be at most `limit` [m] somewhere from one point to another one: by how far the
+//! line is around a point in the middle.
+bool PlanarPolyline::blockMayReach(const PlanarCopy& line, int first, int last, double limit) const {
   const Point2 middle = line.points[(first + last) / 2];
-  double reach = 0.0;
+  const double spare = region_.lowerBound(middle) - limit;
+  double squared = 0.0;
   for (int i = first; i <= last; ++i) {
-    reach = std::max(reach, normBound(line.points[i] - middle));
+    squared = std::max(squared, squaredNorm(line.points[i] - middle));
   }
-  return region_.lowerBound(middle) - reach;
+  return spare <= 0.0 || spare * spare <= squared * (1.0 + 1e-12);
 }
 
 MaterialPoint PlanarPolyline::minimum(const PlanarCopy& line, double bound) {

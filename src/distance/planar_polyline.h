@@ -25,9 +25,9 @@ class PlanarPolyline {
   void visitNear(const PlanarCopy& line, const double& limit, Visit&& visit) const;
 
  private:
-  static constexpr int kBlock = 4;  // segments that are passed over together
+  static constexpr int kBlock = 6;  // segments that are passed over together
 
-  double blockBound(const PlanarCopy& line, int first, int last) const;
+  bool blockMayReach(const PlanarCopy& line, int first, int last, double limit) const;
 
   PlanarRegion& region_;
 };
@@ -39,7 +39,7 @@ template <typename Visit>
 void PlanarPolyline::visitNear(const PlanarCopy& line, const double& limit, Visit&& visit) const {
   for (int first = 0, last; first + 1 < line.count; first = last) {
     last = std::min(first + kBlock, line.count - 1);
-    if (blockBound(line, first, last) > limit) {
+    if (!blockMayReach(line, first, last, limit)) {
       continue;
     }
     double before = region_.lowerBound(line.points[first]);
