@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace deformable_manipulation {
@@ -43,6 +44,11 @@ void requireGeometry(const ObjectView& object) {
 }
 
 bool nearer(const Feature& a, const Feature& b) { return a.distance < b.distance; }
+
+//! The nearest first; of equally near ones the order is always the same.
+bool before(const Feature& a, const Feature& b) {
+  return std::tie(a.distance, a.obstacle, a.vertices) < std::tie(b.distance, b.obstacle, b.vertices);
+}
 
 }  // namespace
 
@@ -98,7 +104,11 @@ void MinimumDistance::addFeatures(const ObjectView& object) {
       features[k].obstacle = static_cast<int>(i);
     }
   }
-  std::stable_sort(features.begin(), features.end(), nearer);
+  if (features.empty() && !obstacles_.empty()) {  // rounding, far from the origin
+    features.push_back(nearest_[0]);
+  }
+  std::sort(features.begin(), features.end(), before);  // a stable sort would allocate
+  nearest_[0].distance = features.empty() ? nearest_[0].distance : features[0].distance;
 }
 
 }  // namespace distance

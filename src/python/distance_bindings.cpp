@@ -17,6 +17,8 @@ using namespace deformable_manipulation::distance;
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Triangles = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
+void bindPlanarObstacle(py::module_& module);
+
 namespace {
 
 Selection toSelection(const std::string& name) {
@@ -89,6 +91,7 @@ py::tuple compute(MinimumDistance& distance, const Points& points, const py::obj
 PYBIND11_MODULE(_distance, module) {
   module.doc() = "Signed minimum distances between a deformable object's copies and obstacles (C++ core).";
   py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.");
+  bindPlanarObstacle(module);
   py::class_<MinimumDistance>(
       module, "MinimumDistance",
       "Signed minimum distances between all copies of an object and several obstacles, from surface to surface.\n\n"

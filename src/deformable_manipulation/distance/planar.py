@@ -4,15 +4,13 @@ import math
 
 import numpy as np
 
+from deformable_manipulation import _distance
 from deformable_manipulation.distance.features import Distances
-from deformable_manipulation.distance.planar_obstacle import PlanarObstacle
 from deformable_manipulation.distance.planes import PLANE_AXES
-from deformable_manipulation.distance.polygons import PolygonError
-from deformable_manipulation.distance.selection import SELECTIONS
+from deformable_manipulation.distance.polygons import check_ring
 
+_SELECTIONS = {"local": "local", "segments": "elements"}  # by their names in the C++ core
 _UNIT_TOLERANCE = 1e-6
-_ROUNDING = 1e-12  # m
-_ENDS = np.array((0, 1, 1))  # a segment's geometry points; the third one's weight is 0
 
 
 class PlanarMinimumDistance:
@@ -35,8 +33,8 @@ class PlanarMinimumDistance:
     those of its two ends. A normal points from the obstacle to the object, inside from the object
     to the nearest point of the boundary; on the boundary it is the edge's outward normal.
 
-    The result depends on the points alone (to rounding), not on calls before. One instance must
-    not be used by several threads at a time: it keeps the edges near the last points.
+    The result depends on the points alone, not on calls before. One instance must not be used by
+    several threads at a time: it remembers what was nearest.
 
     Args:
         obstacles: sequence of scenario.spec.PolygonObstacle.
@@ -49,24 +47,22 @@ class PlanarMinimumDistance:
 
     def __init__(self, obstacles, radius, band=0.1, features="local"):
         problems = _length_problems(radius=radius, band=band)
-        if features not in SELECTIONS:
+        if features not in _SELECTIONS:
             problems.append(
-                "features is {!r}; allowed are {}".format(features, _quoted(SELECTIONS))
+                "features is {!r}; allowed are {}".format(features, _quoted(_SELECTIONS))
             )
-        self._obstacles = []
+        native = []
         for spec in obstacles:
             faults = _pose_problems(spec)
             if not faults:
                 try:
-                    self._obstacles.append(PlanarObstacle(spec))
-                except PolygonError as error:
-                    faults = [str(error)]
+                    native.append(_native_obstacle(spec))
+                except ValueError as error:
+                    faults = str(error).splitlines()
             problems += ["obstacle {!r}: {}".format(spec.name, fault) for fault in faults]
         if problems:
             raise ValueError("\n".join(problems))
-        self._radius = float(radius)
-        self._band = float(band)
-        self._select = SELECTIONS[features]
+        self._native = _distance.MinimumDistance(native, radius, band, _SELECTIONS[features])
         self._names = tuple(spec.name for spec in obstacles)
 
     def compute(self, points):
@@ -87,88 +83,13 @@ class PlanarMinimumDistance:
                     points.shape
                 )
             )
-        if not np.isfinite(points).all():
-            copy, point, _ = np.argwhere(~np.isfinite(points))[0]
-            raise ValueError(
-                "point {} of copy {} is {}; points must be finite".format(
-                    point, copy, points[copy, point]
-                )
-            )
-        if not self._obstacles:
-            return _nothing_near(len(points))
-        rows = [self._rows_of(index, points) for index in range(len(self._obstacles))]
-        rows = rows[0] if len(rows) == 1 else [np.concatenate(parts) for parts in zip(*rows)]
-        return self._assemble(len(points), *rows)
-
-    def _rows_of(self, index, points):
-        """The features of one obstacle: copy, obstacle (M,), and the per-feature fields."""
-        obstacle = self._obstacles[index]
-        approach = obstacle.approach(points, self._band)
-        segment, parameter = self._select(approach)
-        segment = np.concatenate((segment, approach.segment[1:]))
-        parameter = np.concatenate((parameter, approach.parameter[1:]))
-        copies = len(points)
-        copy = np.maximum(np.arange(copies - len(segment), copies), 0)  # 0, ..., 0, 1, 2, ...
-        start = points[copy, segment]
-        object_point = start + parameter[:, None] * (points[copy, segment + 1] - start)
-        weights = np.zeros((len(segment), 3))
-        weights[:, 0] = 1.0 - parameter
-        weights[:, 1] = parameter
-        nearest = obstacle.nearest(object_point, approach.touching[copy])
-        return (
-            copy,
-            np.full(len(segment), index),
-            nearest.distance - self._radius,
-            object_point,
-            object_point + nearest.offset,
-            nearest.normal,
-            segment[:, None] + _ENDS,
-            weights,
-        )
-
-    def _assemble(self, copies, copy, *fields):
-        """Distances of the rows within the band of their copy's minimum, the nearest first."""
-        distance = fields[1]
-        order = np.lexsort((distance, copy))
-        copy, distance = copy[order], distance[order]
-        starts = np.searchsorted(copy, np.arange(copies))
-        kept = distance <= distance[0] + self._band + _ROUNDING
-        kept &= copy == 0
-        kept[starts] = True
-        order = order[kept]
-        obstacle, distance, *others = (field[order] for field in fields)
-        object_point, obstacle_point, normal, vertices, weights = others
-        offsets = np.searchsorted(copy[kept], np.arange(copies + 1))
-        return Distances(
-            minimum=distance[offsets[:-1]],
-            offsets=offsets,
-            distance=distance,
-            obstacle=obstacle,
-            object_point=object_point,
-            obstacle_point=obstacle_point,
-            normal=normal,
-            vertices=vertices,
-            weights=weights,
-            obstacle_velocity=np.zeros(normal.shape),
-            names=self._names,
-        )
+        return Distances(*self._native.compute(points), self._names)
 
 
-def _nothing_near(copies):
-    """Distances of copies when there is no obstacle."""
-    vectors = np.zeros((0, 3))
-    return Distances(
-        minimum=np.full(copies, np.inf),
-        offsets=np.zeros(copies + 1, dtype=int),
-        distance=np.zeros(0),
-        obstacle=np.zeros(0, dtype=int),
-        object_point=vectors,
-        obstacle_point=vectors,
-        normal=vectors,
-        vertices=np.zeros((0, 3), dtype=int),
-        weights=vectors,
-        obstacle_velocity=vectors,
-    )
+def _native_obstacle(spec):
+    """The C++ core's obstacle. Raises ValueError where the ring bounds no region."""
+    ring = check_ring(spec.points)
+    return _distance.PlanarObstacle(ring, spec.plane, spec.translation, spec.rotation)
 
 
 def _length_problems(**lengths):

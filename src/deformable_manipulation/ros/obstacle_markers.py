@@ -46,7 +46,7 @@ def _lit(corners):
 
 def _prism(obstacle, half_width):
     """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards."""
-    plane = PlaneFrame(obstacle.plane, obstacle.translation, obstacle.rotation, np.zeros(2))
+    plane = PlaneFrame(obstacle.plane, obstacle.rotation)
     polygon = shapely.geometry.polygon.orient(shapely.Polygon(obstacle.points))
     ring = shapely.get_coordinates(polygon)[:-1]
     caps = _triangles(polygon)

@@ -5,15 +5,22 @@ import planar_reference as reference
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from planar_reference import HILLS, SQUARE, arc_length, compute, in_plane, obstacle
+from planar_reference import (
+    COMB,
+    HILLS,
+    SQUARE,
+    arc_length,
+    compute,
+    in_plane,
+    obstacle,
+    star,
+)
 from scipy.spatial.transform import Rotation
 
 from deformable_manipulation.distance.planar import PlanarMinimumDistance
 
 SAMPLES = 2001
 BAND = 0.2137  # m, off the grid of the lines, so that no distance is just at its end
-COMB = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.8, 1.0), (0.8, 0.2), (0.6, 0.2), (0.6, 1.0),
-        (0.4, 1.0), (0.4, 0.5), (0.0, 0.5))
 MANY = settings(max_examples=60, deadline=None)
 seeds = st.integers(0, 2**32 - 1)
 selections = st.sampled_from(["local", "segments"])
@@ -27,14 +34,6 @@ def random_ring(rng):
     else:
         ring = star(rng)
     return ring if rng.random() < 0.5 else ring[::-1]
-
-
-def star(rng):
-    """A ring seen whole from the origin."""
-    count = rng.integers(3, 30)
-    angles = 2.0 * np.pi * (np.arange(count) + rng.uniform(0.0, 0.9, count)) / count
-    radii = rng.uniform(0.3, 1.5, count) if rng.random() < 0.7 else np.ones(count)
-    return radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
 
 
 def wanderer(rng, copies=None):

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deformable_manipulation/distance/obstacle.h"
+
+namespace deformable_manipulation {
+namespace distance {
+
+//! A polygon in a plane, endless along the plane's normal.
+//!
+//! A point's signed distance is its distance to the polygon's boundary, seen along the normal, negative inside. Normals
+//! point from the obstacle to the object, inside from the object to the nearest point of the boundary; within 1e-9 m of
+//! the boundary they are the edge's outward normal. Triangles of a surface count as filled, seen along the normal.
+//!
+//! Features of a polyline:
+//! - Selection::LOCAL: the local minima of the signed distance along it. A stretch level with an edge counts once, by
+//!   its middle.
+//! - Selection::ELEMENTS: the nearest point of each segment; where it is level with an edge, the middle of the nearest
+//!   stretch.
+//! Features of a surface: the nearest point of each triangle, the mean of several if that is as near; for
+//! Selection::LOCAL those of them from which the signed distance falls on no triangle around.
+class PlanarObstacle : public Obstacle {
+ public:
+  //! @param points [m] (a, b), corners of a simple polygon of either orientation, on the obstacle's own axes that
+  //!   `plane` names
+  //! @param plane "xy", "yz" or "xz"
+  //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
+  //! @throw std::invalid_argument, with all reasons: a coordinate is not finite or beyond 1e6 m; there are fewer than
+  //!   three distinct points or they bound no area; the polygon crosses itself; the plane is unknown; the pose is
+  //!   none
+  PlanarObstacle(const std::vector<std::array<double, 2>>& points, const std::string& plane,
+                 const Vector3& translation = Vector3::Zero(),
+                 const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
+  ~PlanarObstacle() override;
+
+  //! Moves the obstacle.
+  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
+  //! @throw std::invalid_argument, with all reasons
+  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
+
+  void minima(const ObjectView& object, Feature* nearest) override;
+  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) override;
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace distance
+}  // namespace deformable_manipulation
