@@ -14,10 +14,12 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-// "Zero" stretch is this fraction of the joint's own response to a force. It keeps the chain's
-// matrix regular where a straight piece is taut between two holds and bounds the forces of one that
-// is pulled farther than it reaches; a hanging rope grows by some micrometres.
-constexpr double kFloorCompliance = 1e-5;
+// Compliances as fractions of the joint's own response to a force. The first one makes up "zero"
+// stretch: it keeps the chain's matrix regular where a straight piece is taut between two holds and
+// bounds the forces of one that is pulled farther than it reaches; a hanging rope grows by some
+// micrometres. The other one, in all directions, is far below what can be seen.
+constexpr double kAxialCompliance = 1e-5;
+constexpr double kFloorCompliance = 1e-8;
 
 // Substeps that the threads do before they wait for each other.
 constexpr int kSubstepsAtOnce = 16;
@@ -252,7 +254,8 @@ void Rod::beginStep(double h) {
   const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
   in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
   in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
-  in.axial_compliance = p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : 0.0;
+  in.axial_compliance =
+      p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : kAxialCompliance / p.segmentMass();
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
   dampTowardsReference(h);

@@ -101,10 +101,8 @@ class RodChain {
     Vec3 turn = a_inverse * torque;
     Vec3 gap = transposedMultiplyAdd(front.r, turn, front.gap + gapOf(joint, front.segment.x, next.x, half_length_));
     Matrix3 a_inverse_r = a_inverse * front.r;
-    Symmetric3 n = transposedMultiplyAdd(front.r, a_inverse_r, front.n + compliance(j));
-    if (in_.axial_compliance > 0.0) {
-      n = addOuter(n, broadcast(in_.axial_compliance), joint.d0);
-    }
+    Symmetric3 n = addOuter(transposedMultiplyAdd(front.r, a_inverse_r, front.n + compliance(j)),
+                            broadcast(in_.axial_compliance), joint.d0);
     Matrix3 arm = crossMatrix(half_length_ * d);
     Matrix3 h = multiplyAdd(k, a_inverse_r, arm);
     Symmetric3 p = active ? inverse(n) : Symmetric3{};
@@ -155,7 +153,7 @@ class RodChain {
                     broadcast(in_.inertia_excess[i]) - tension, d);
   }
 
-  //! What joint j yields to its own force, but for stretch from moduli.
+  //! What joint j yields to its own force, but for stretch.
   DM_INLINE Symmetric3 compliance(int j) const {
     return isotropic(broadcast(in_.inverse_mass[j] + in_.inverse_mass[j + 1] + in_.floor_compliance));
   }
