@@ -77,7 +77,8 @@ struct Quat {
 };
 
 DM_INLINE Quat normalized(const Quat& q) {
-  const Pack scale = 1.0 / squareRoot(dotAdd(q.v, q.v, q.w * q.w));
+  const Pack square = dotAdd(q.v, q.v, q.w * q.w);
+  const Pack scale = (1.0 / square) * squareRoot(square);  // at the same time
   return {scale * q.v, scale * q.w};
 }
 

@@ -14,21 +14,20 @@ struct Matrix3 {
 };
 
 DM_INLINE Vec3 operator*(const Matrix3& m, const Vec3& v) { return v.x * m.x + v.y * m.y + v.z * m.z; }
-DM_INLINE Matrix3 operator*(const Pack& s, const Matrix3& m) { return {s * m.x, s * m.y, s * m.z}; }
-DM_INLINE Matrix3 operator+(const Matrix3& a, const Matrix3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
 //! M v + c
 DM_INLINE Vec3 multiplyAdd(const Matrix3& m, const Vec3& v, const Vec3& c) {
   return scaleAdd(v.z, m.z, scaleAdd(v.y, m.y, scaleAdd(v.x, m.x, c)));
 }
 
-//! A^T v
-DM_INLINE Vec3 transposedTimes(const Matrix3& a, const Vec3& v) { return {dot(a.x, v), dot(a.y, v), dot(a.z, v)}; }
-
 //! A^T v + c
 DM_INLINE Vec3 transposedMultiplyAdd(const Matrix3& a, const Vec3& v, const Vec3& c) {
   return {dotAdd(a.x, v, c.x), dotAdd(a.y, v, c.y), dotAdd(a.z, v, c.z)};
 }
+
+DM_INLINE Matrix3 operator+(const Matrix3& a, const Matrix3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+//! A^T v
+DM_INLINE Vec3 transposedTimes(const Matrix3& a, const Vec3& v) { return {dot(a.x, v), dot(a.y, v), dot(a.z, v)}; }
 
 //! [v]_x, so that crossMatrix(v) * w = v x w.
 DM_INLINE Matrix3 crossMatrix(const Vec3& v) {
@@ -64,6 +63,11 @@ DM_INLINE Matrix3 operator*(const Matrix3& m, const Symmetric3& a) {
 
 DM_INLINE Matrix3 toMatrix(const Symmetric3& a) { return {{a.xx, a.yx, a.zx}, {a.yx, a.yy, a.zy}, {a.zx, a.zy, a.zz}}; }
 
+//! A - B
+DM_INLINE Matrix3 operator-(const Matrix3& a, const Symmetric3& b) {
+  return {a.x - Vec3{b.xx, b.yx, b.zx}, a.y - Vec3{b.yx, b.yy, b.zy}, a.z - Vec3{b.zx, b.zy, b.zz}};
+}
+
 //! s 1
 DM_INLINE Symmetric3 isotropic(const Pack& s) {
   const Pack zero = {};
@@ -77,7 +81,7 @@ DM_INLINE Symmetric3 addOuter(const Symmetric3& a, const Pack& s, const Vec3& v)
           a.zx + sv.z * v.x, a.zy + sv.z * v.y, a.zz + sv.z * v.z};
 }
 
-//! M s + C
+//! s M + C
 DM_INLINE Matrix3 multiplyAdd(const Pack& s, const Matrix3& m, const Matrix3& c) {
   return {scaleAdd(s, m.x, c.x), scaleAdd(s, m.y, c.y), scaleAdd(s, m.z, c.z)};
 }
@@ -111,7 +115,9 @@ DM_INLINE Symmetric3 multiplyTransposedAdd(const Matrix3& a, const Matrix3& b, c
           c.zy + a.x.z * b.x.y + a.y.z * b.y.y + a.z.z * b.z.y, c.zz + a.x.z * b.x.z + a.y.z * b.y.z + a.z.z * b.z.z};
 }
 
-//! Inverse of a positive definite matrix, by its cofactors: shorter to wait for than elimination.
+//! Inverse of a positive definite matrix, by its cofactors: one division, and shorter to wait for
+//! than elimination. Loses as many digits as the matrix's condition number has, 8 of 16 where it is
+//! singular but for the floor compliance.
 DM_INLINE Symmetric3 inverse(const Symmetric3& a) {
   const Pack xx = a.yy * a.zz - a.zy * a.zy;
   const Pack yx = a.zy * a.zx - a.yx * a.zz;

@@ -67,7 +67,9 @@ class RodChain {
     for (int j = joints - 1; j >= 0; --j) {
       solution = substitute(j, solution);
     }
-    move(0, broadcast(in_.inverse_mass[0]) * solution.force, solution.rotation);
+    Placement first = turned(0, solution.rotation);
+    first.x = scaleAdd(broadcast(in_.inverse_mass[0]), solution.force, first.x);
+    pack_.finish(0, first);
   }
 
  private:
@@ -125,6 +127,7 @@ class RodChain {
 
   //! Finds the force of joint j and the rotation of segment j, and moves segment j + 1.
   DM_INLINE ChainSolution substitute(int j, const ChainSolution& after) {
+    Placement moved = turned(j + 1, after.rotation);
     PackReader kept_here(kept(j));
     Symmetric3 a_inverse = kept_here.getSymmetric3();
     Vec3 torque = kept_here.getVec3();
@@ -140,7 +143,8 @@ class RodChain {
     Vec3 pull = k * after.rotation;
     Vec3 rotation = a_inverse * multiplyAdd(r, force, torque + pull);
     pack_.storeWrench(j, {force, multiplyAdd(k, -rotation, sigma + pull)});
-    move(j + 1, inverse_mass * (after.force - force), after.rotation);
+    moved.x = scaleAdd(inverse_mass, after.force - force, moved.x);
+    pack_.finish(j + 1, moved);
     return {rotation, force};
   }
 
@@ -158,13 +162,13 @@ class RodChain {
     return isotropic(broadcast(in_.inverse_mass[j] + in_.inverse_mass[j + 1] + in_.floor_compliance));
   }
 
-  DM_INLINE void move(int i, const Vec3& shift, const Vec3& rotation) {
+  //! A segment's prediction, turned.
+  DM_INLINE Placement turned(int i, const Vec3& rotation) const {
     Placement place = pack_.placement(i);
-    place.x = place.x + shift;
     if (in_.inverse_transverse[i] > 0.0) {
       place.q = rotated(place.q, broadcast(0.5) * rotation);
     }
-    pack_.finish(i, place);
+    return place;
   }
 
   //! What is kept of joint j and segment j to find their force and rotation later.

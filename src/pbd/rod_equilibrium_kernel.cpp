@@ -219,7 +219,7 @@ class Equilibrium {
     storeSymmetric3(at(s_.inverse_pivot, 6 * i), inverse(pivot));
     store3(at(s_.correction, 3 * i), kLanes, right);
     const Matrix3 turning = crossMatrix(broadcast(0.5) * after.moment);
-    storeMatrix3(at(s_.coupling, 9 * i), broadcast(-1.0) * toMatrix(after.stiffness) + turning);
+    storeMatrix3(at(s_.coupling, 9 * i), turning - after.stiffness);
     for (int span = 0; span < in_.span_count; ++span) {
       Matrix3 lever = {};
       if (free) {

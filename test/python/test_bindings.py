@@ -43,6 +43,27 @@ def make_simulation(perturbations=((1, UP),), steps_per_cycle=1):
     )
 
 
+def test_threads_do_not_change_the_result():
+    rods = [_pbd.Rod(**ROPE, orientation=ALONG_Y, threads=threads) for threads in (1, 2)]
+    for rod in rods:
+        rod.hold(0)
+        for i in range(12):
+            rod.add_copy(0, (0.0, 0.0, 0.01 * (i + 1)))
+        rod.step(0.1, 40)
+    assert np.array_equal(rods[0].points(), rods[1].points())
+    with pytest.raises(_pbd.ParameterError, match="threads: 0 - must be a whole number"):
+        _pbd.Rod(**ROPE, threads=0)
+
+
+@pytest.mark.parametrize(
+    "step, key",
+    [((0.0, 1), "time_step"), ((np.nan, 1), "time_step"), ((0.01, 0), "substeps")],
+)
+def test_steps_that_cannot_be(rope, step, key):
+    with pytest.raises(_pbd.ParameterError, match=key + ": .* - must be"):
+        rope.step(*step)
+
+
 @pytest.fixture
 def simulation():
     return make_simulation()
