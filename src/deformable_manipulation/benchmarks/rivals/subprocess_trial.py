@@ -17,7 +17,7 @@ from deformable_manipulation.benchmarks.rod_trial import Trial
 SOURCES = Path(__file__).resolve().parents[3]  # the folder that holds this package
 CHILD = "deformable_manipulation.benchmarks.rivals.child"
 NOT_INSTALLED = f"not installed: {INSTALL}"
-TIME_LIMIT = 3600.0  # s
+TIME_LIMIT = 90.0  # s
 ONE_THREAD = (
     "OMP_NUM_THREADS",
     "OPENBLAS_NUM_THREADS",
