@@ -24,12 +24,15 @@ SCENARIO = str(SHARE / "test" / "rostest" / "short_rope.yaml")
 SIZE = (640, 400)
 MARK = "RVIZ_SNAPSHOT_TEST"  # in the environment of all its programs
 
+RUN_BESIDE = {"/simulator", "/minimum_distance", "/leader", "/assistant_1_controller"}
+
 
 class RvizSnapshotTest(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, str(self.folder))
         self.mark = uuid.uuid4().hex
+        poll(lambda: RUN_BESIDE <= self.nodes_here(), "the nodes of the run beside")
         self.nodes = self.nodes_here()
         self.addCleanup(self.assert_nothing_is_left)
 
