@@ -5,6 +5,7 @@ import numpy as np
 from deformable_manipulation import _pbd
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
 from deformable_manipulation.benchmarks.rod_trial import RodModel
+from deformable_manipulation.validation import rod as validation_rod
 
 SUBSTEP = {"direct": 0.005, "gauss_seidel": 0.0005}  # s; the paper takes 20 or more per 10 ms
 DISPLACEMENT = 0.1  # m, of the held end in the copies
@@ -12,17 +13,13 @@ DISPLACEMENT = 0.1  # m, of the held end in the copies
 
 def make_rod(case: RodCase, solver: str, stretch: str = "zero") -> _pbd.Rod:
     """The undeformed rod of a case, along x from the origin, held nowhere."""
-    return _pbd.Rod(
-        length=case.length,
-        radius=case.radius,
-        density=case.density,
-        segments=case.segments,
-        young_modulus=case.young_modulus,
-        torsion_modulus=case.torsion_modulus,
+    return validation_rod.make_rod(
+        case,
+        case.segments,
+        gravity=(0.0, 0.0, -case.gravity),
         stretch=stretch,
         damping=case.damping,
         solver=solver,
-        gravity=(0.0, 0.0, -case.gravity),
     )
 
 
@@ -36,7 +33,6 @@ def add_copies(rod: _pbd.Rod, particle: int, copies: int) -> None:
 class PackageRod(RodModel):
     """The rod itself is what is looked at; its copies are carried along."""
 
-    damps = True
 
     def __init__(self, case: RodCase, solver: str, stretch: str = "zero", copies: int = 1):
         self.time_step = SUBSTEP[solver]
@@ -58,9 +54,6 @@ class PackageRod(RodModel):
 
     def advance(self, count: int) -> None:
         self._rod.step(count * self.time_step, count)
-
-    def damp(self, factor: float) -> None:
-        raise NotImplementedError("its steps damp the motion")
 
     def place_end(self, x: float, velocity: float) -> None:
         # Its place follows from its velocity, step by step.

@@ -26,11 +26,10 @@ class TrialError(RuntimeError):
 
 
 class RodModel(ABC):
-    """A rod in a library.
+    """A rod in a library whose steps damp the motion; see :class:`UndampedRodModel`.
 
     Attributes:
         time_step: simulated time of a step [s].
-        damps: whether ``advance`` damps the motion; where not, ``damp`` is called after each step.
         free_length: length [m] from grip to grip, or from clamp to tip. A rod that is held in the
             middle of a segment begins there.
         overhang: length [m] of the stub beyond a grip.
@@ -38,7 +37,6 @@ class RodModel(ABC):
     """
 
     time_step: float
-    damps = False
     free_length: float
     overhang = 0.0
     settings: str
@@ -47,9 +45,9 @@ class RodModel(ABC):
     def advance(self, count: int) -> None:
         """Make a number of time steps; this is what is timed."""
 
-    @abstractmethod
-    def damp(self, factor: float) -> None:
-        """Multiply all velocities by a factor."""
+    def advance_damped(self, count: int, factor: float) -> None:
+        """Make a number of time steps, each of which keeps ``factor`` of all velocities."""
+        self.advance(count)
 
     @abstractmethod
     def place_end(self, x: float, velocity: float) -> None:
@@ -62,6 +60,19 @@ class RodModel(ABC):
     @abstractmethod
     def arc_lengths(self) -> np.ndarray:
         """Their arc lengths (n,) [m] from the first grip."""
+
+
+class UndampedRodModel(RodModel):
+    """A rod in a library that has no damping: it is added between the steps, and not timed."""
+
+    def advance_damped(self, count: int, factor: float) -> None:
+        for _ in range(count):
+            self.advance(1)
+            self.damp(factor)
+
+    @abstractmethod
+    def damp(self, factor: float) -> None:
+        """Multiply all velocities by a factor."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +119,7 @@ def _settle(model: RodModel, case: RodCase, time_limit: float) -> Optional[float
     if case.load == ROPE:
         step = _draw_in(model, case, factor, history, stride)
     while step * model.time_step < time_limit:
-        _advance(model, stride, factor)
+        model.advance_damped(stride, factor)
         step += stride
         history.append((step * model.time_step, _finite_points(model)))
         recent.append(history[-1][1])
@@ -123,20 +134,11 @@ def _draw_in(model: RodModel, case: RodCase, factor: float, history, stride: int
     way = model.free_length - case.span
     for step in range(1, steps + 1):
         model.place_end(model.free_length - way * step / steps, -way / (steps * model.time_step))
-        _advance(model, 1, factor)
+        model.advance_damped(1, factor)
         if step % stride == 0:
             history.append((step * model.time_step, _finite_points(model)))
     model.place_end(case.span, 0.0)
     return steps
-
-
-def _advance(model: RodModel, count: int, factor: float) -> None:
-    if model.damps:
-        model.advance(count)
-        return
-    for _ in range(count):
-        model.advance(1)
-        model.damp(factor)
 
 
 def _finite_points(model: RodModel) -> np.ndarray:

@@ -13,6 +13,7 @@ from deformable_manipulation.benchmarks.rivals.environment import (
     install,
 )
 from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
+from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.interruption import exit_status, interruptible
 
 NAME = "benchmark"
@@ -40,19 +41,14 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
                 _measure(arguments)
         except (DocumentError, RuntimeError) as error:
             # RuntimeError: no environment, or a simulation that broke down.
-            return _fail(str(error))
+            return fail(NAME, str(error))
         except OSError as error:
-            return _fail(f"cannot write the results: {error}")
+            return fail(NAME, f"cannot write the results: {error}")
         except ImportError as error:
-            return _fail(f"cannot measure {arguments.subject}: {error}")
+            return fail(NAME, f"cannot measure {arguments.subject}: {error}")
         except KeyboardInterrupt as interrupt:
             return exit_status(interrupt)
     return 0
-
-
-def _fail(message: str) -> int:
-    print(f"{NAME}: {message}", file=sys.stderr)
-    return 1
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.scenario import (
@@ -42,9 +43,10 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 1
     times = sorted(set(arguments.times or [0.5 * scenario.simulation.duration]))
     if times[-1] > scenario.simulation.duration:
-        return _fail(
+        return fail(
+            NAME,
             f"--times: {times[-1]:g} s is after the end of the scenario; "
-            f"allowed: 0 to {scenario.simulation.duration:g} s"
+            f"allowed: 0 to {scenario.simulation.duration:g} s",
         )
     # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
     from deformable_manipulation.ros.program import ProgramError
@@ -53,17 +55,12 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         try:
             _take_all(scenario, times, arguments)
         except ProgramError as error:
-            return _fail(str(error))
+            return fail(NAME, str(error))
         except OSError as error:
-            return _fail(f"cannot write the pictures: {error}")
+            return fail(NAME, f"cannot write the pictures: {error}")
         except KeyboardInterrupt as interrupt:
             return exit_status(interrupt)
     return 0
-
-
-def _fail(message: str) -> int:
-    print(f"{NAME}: {message}", file=sys.stderr)
-    return 1
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:

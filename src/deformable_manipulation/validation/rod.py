@@ -59,7 +59,10 @@ def make_rod(
     gravity: Sequence[float] = (0.0, 0.0, -GRAVITY),
     **options,
 ) -> _pbd.Rod:
-    """Build the simulated rod, straight along x; options as ``_pbd.Rod`` has them."""
+    """Build the simulated rod, straight along x; options as ``_pbd.Rod`` has them.
+
+    ``properties``: anything with the length, radius, density and moduli of RodProperties.
+    """
     return _pbd.Rod(
         length=properties.length,
         radius=properties.radius,

@@ -16,9 +16,9 @@ from deformable_manipulation.benchmarks.rod_theory import error_of
 from deformable_manipulation.benchmarks.rod_trial import (
     DRAW_IN,
     SETTLED,
-    RodModel,
     Trial,
     TrialError,
+    UndampedRodModel,
     run_trial,
 )
 from deformable_manipulation.benchmarks.subject import Request
@@ -33,7 +33,7 @@ RATE = 4.0  # 1/s
 AMPLITUDE = 0.5  # m
 
 
-class FadingModel(RodModel):
+class FadingModel(UndampedRodModel):
     """One point that comes down exponentially; its damping is the driver's business."""
 
     time_step = 0.004

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel, TrialError
+from deformable_manipulation.benchmarks.rod_trial import RodModel, TrialError, UndampedRodModel
 
 TIME_STEP = 0.005  # s
 FINE_TIME_STEP = 0.002  # s, its default: needed for more segments than
@@ -47,7 +47,7 @@ def make(case: RodCase) -> RodModel:
     return MujocoRod(case)
 
 
-class MujocoRod(RodModel):
+class MujocoRod(UndampedRodModel):
     """Bodies with ball joints in joint coordinates; the plugin bends and twists them.
 
     The plugin's forces are integrated explicitly. Viscous joints, which are integrated implicitly,

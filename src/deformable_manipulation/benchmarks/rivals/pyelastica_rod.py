@@ -28,7 +28,6 @@ class ElasticaRod(RodModel):
     2/r sqrt(k G / density), whatever the number of elements.
     """
 
-    damps = True
 
     def __init__(self, case: RodCase):
         self._rope = case.load == ROPE
@@ -96,9 +95,6 @@ class ElasticaRod(RodModel):
     def advance(self, count: int) -> None:
         for _ in range(count):
             self._time = self._stepper.step(self._simulator, self._time, self.time_step)
-
-    def damp(self, factor: float) -> None:
-        raise NotImplementedError("its steps damp the motion")
 
     def place_end(self, x: float, velocity: float) -> None:
         self._held[-1].fixed_positions[:, 0] = (x, 0.0, 0.0)

@@ -4,7 +4,7 @@ import numpy as np
 import pypbd
 
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel
+from deformable_manipulation.benchmarks.rod_trial import RodModel, UndampedRodModel
 
 TIME_STEP = 0.005  # s, that of the library's own demonstration of stiff rods
 
@@ -14,7 +14,7 @@ def make(case: RodCase, iterations: int) -> RodModel:
     return PyPbdRod(case, iterations)
 
 
-class PyPbdRod(RodModel):
+class PyPbdRod(UndampedRodModel):
     """Rigid bodies, and one constraint for the whole chain.
 
     The chain's tree has one root, so a rope whose ends are held gets a ball joint at the middle of
