@@ -10,7 +10,6 @@ from deformable_manipulation import _pbd
 GRAVITY = 9.81  # m/s^2
 TIME_STEP = 0.01  # s
 SUBSTEPS = 2
-TURNING = 1e-7  # rad/s, of a rod at rest
 
 
 @dataclass(frozen=True)
@@ -103,19 +102,12 @@ def hang(
 
 
 def settle(rod, substeps: int = SUBSTEPS, speed: float = 1e-9, time_limit: float = 600.0) -> None:
-    """Step until the rod rests: no centre faster than ``speed`` [m/s], nothing turns any more.
+    """Step until the rod rests: nothing moves or turns faster than ``speed`` [m/s].
 
     ``time_limit`` [s] is simulated time. Raises RuntimeError where it moves longer than that.
     """
-    before = rod.orientations()
-    for _ in range(int(time_limit / TIME_STEP)):
-        rod.step(TIME_STEP, substeps)
-        after = rod.orientations()
-        turning = 2.0 * np.abs(after - before).max() / TIME_STEP
-        if turning < TURNING and np.abs(rod.velocities()).max() < speed:
-            return
-        before = after
-    raise RuntimeError(f"the rod still moves after {time_limit:g} s")
+    if not rod.settle(TIME_STEP, substeps, speed, time_limit):
+        raise RuntimeError(f"the rod still moves after {time_limit:g} s")
 
 
 def move(
