@@ -12,7 +12,8 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kRounding = 1e-12;  // m
+constexpr double kRounding = 1e-12;         // m
+constexpr double kLargestCoordinate = 1e6;  // m; beyond it distances lose the precision that safety needs
 
 void requireLength(const char* name, double value) {
   if (!std::isfinite(value) || value < 0.0) {
@@ -27,11 +28,12 @@ void requireGeometry(const ObjectView& object) {
   }
   const long numbers = 3L * object.copies * object.point_count;
   const double* end = object.points + numbers;
-  const double* found = std::find_if(object.points, end, [](double value) { return !std::isfinite(value); });
+  const double* found =
+      std::find_if(object.points, end, [](double value) { return !(std::abs(value) <= kLargestCoordinate); });
   if (found != end) {
     const long point = (found - object.points) / 3;
     throw std::invalid_argument("point " + std::to_string(point % object.point_count) + " of copy " +
-                                std::to_string(point / object.point_count) + " is not finite");
+                                std::to_string(point / object.point_count) + " is not finite, or beyond 1e6 m");
   }
   for (int t = 0; t < object.triangle_count; ++t) {
     for (int vertex : object.triangles[t]) {

@@ -293,6 +293,12 @@ struct BoundEquilibrium {
       throw py::value_error("copies is " + std::to_string(copies) + "; it must be 1 to " +
                             std::to_string(rod.copyCount()));
     }
+    if (!(tolerance > 0.0 && tolerance <= 0.01)) {
+      throw py::value_error("tolerance is " + std::to_string(tolerance) + "; it must be > 0 and <= 0.01");
+    }
+    if (iterations < 1 || iterations > 1000) {
+      throw py::value_error("iterations is " + std::to_string(iterations) + "; it must be 1 to 1000");
+    }
     holds = static_cast<int>(rod.holds().size());
     points = rod.pointCount();
     equilibrium.update(rod, copies, {tolerance, iterations});

@@ -20,7 +20,7 @@ class MinimumDistance {
   //! Copy 0 has all its features within the band, every other copy its minimum alone.
   //! The result is valid until the next call.
   //! @throw std::invalid_argument if there is no copy, a copy has fewer than two points, a triangle refers to
-  //! a point that does not exist, or a coordinate is not finite.
+  //! a point that does not exist, or a coordinate is not finite or beyond 1e6 m.
   const Distances& compute(const ObjectView& object);
 
  private:

@@ -49,6 +49,31 @@ class RodSpec:
 
 
 @dataclass(frozen=True)
+class FabricSpec:
+    """A fabric: a triangle mesh with mass, membrane and bending stiffness.
+
+    Particle i is vertex i of the mesh. Undeformed, a vertex v lies at
+    ``pose.position + pose.orientation * v``.
+    """
+
+    vertices: Tuple[Vector, ...]  # m
+    triangles: Tuple[Tuple[int, int, int], ...]  # indices of vertices
+    density: float  # kg/m^2
+    thickness: float  # m
+    stretching_compliance: float  # m/N, inverse of the membrane stiffness E t
+    bending_compliance: float  # 1/(N m), inverse of the flexural rigidity per width
+    damping: float = 10.0  # 1/s, of motion relative to the held points
+    pose: Pose = Pose()
+
+    type = "fabric"
+
+    @property
+    def particles(self) -> int:
+        """Number of particles that can be held (the vertices)."""
+        return len(self.vertices)
+
+
+@dataclass(frozen=True)
 class AgentSpec:
     """A robot or person that holds one particle of the object."""
 
@@ -74,6 +99,20 @@ class PolygonObstacle:
     plane: str = "yz"  # "xy", "yz" or "xz"
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class MeshObstacle:
+    """The surface of triangles in a file.
+
+    A vertex v of the file lies at ``translation + rotation * (scale * v)``.
+    """
+
+    name: str
+    mesh: str  # path of a file that Trimesh reads
+    translation: Vector = (0.0, 0.0, 0.0)  # m
+    rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+    scale: Vector = (1.0, 1.0, 1.0)  # m per unit of the file, along the file's axes
 
 
 @dataclass(frozen=True)
