@@ -124,13 +124,14 @@ def _finish_figure(
         handles=handles,
         loc="outside upper center",
         ncols=max(1, len(handles)),
-        title=_title(run, series),
+        title=title_of(run, series.agent),
         borderaxespad=0.4,
     )
 
 
-def _title(run: RunData, series: AssistantSeries) -> str:
-    title = f"{run.name}: {series.agent}"
+def title_of(run: RunData, what: str = "") -> str:
+    """Title of a figure of a run, which tells where its shapes mean nothing."""
+    title = f"{run.name}: {what}" if what else run.name
     if run.max_stretch is None or run.max_stretch <= LARGEST_VALID_STRETCH:
         return title
     return f"{title}\nNOT VALID: object stretched by up to {100.0 * run.max_stretch:.1f} %"
