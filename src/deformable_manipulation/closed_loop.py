@@ -9,7 +9,7 @@ from deformable_manipulation.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation import make_simulation
-from deformable_manipulation.stretch import rod_stretch
+from deformable_manipulation.stretch import StretchGauge
 
 _PROGRESS_REPORTS = 100
 
@@ -33,7 +33,7 @@ class ClosedLoop:
             for index in scenario.assistants
         }
         self._points = self._simulation.points()
-        self._segment_length = scenario.object.length / scenario.object.segments
+        self._stretch = StretchGauge(scenario.object)
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
@@ -78,7 +78,7 @@ class ClosedLoop:
             cycle=observation.cycle,
             time=observation.time,
             distance=float(observation.distances.minimum[0]),
-            stretch=rod_stretch(points, self._segment_length),
+            stretch=self._stretch.measure(points),
             positions=observation.positions,
             velocities=velocities,
             points=points,
