@@ -53,7 +53,12 @@ COLLISION = Section(
 )
 
 OVERSTRETCH = Section(
-    OverstretchSpec, {"max_distance": Auto("m", above=0.0), "alpha": _ALPHA}
+    OverstretchSpec,
+    {
+        "max_distance": Auto("m", above=0.0),
+        "fraction": Number("1", above=0.0, at_most=1.0),
+        "alpha": _ALPHA,
+    },
 )
 
 PROXIMITY = Section(

@@ -2,7 +2,7 @@
 
 import dataclasses
 import os
-from typing import Any, Dict, Tuple
+from typing import Any, Tuple
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.files import resolve_file
@@ -71,12 +71,9 @@ class InlineMesh:
             return _read_file(node)[1]
         if not isinstance(node.value, dict):
             node.fail("must be {}".format(self.allowed))
-        parts = _INLINE.read_parts(node)
-        if "triangles" in parts:
-            _check_triangles(node, parts)
-        if len(parts) < 2:
-            raise Unreadable
-        return Mesh(**parts)
+        mesh = _INLINE(node)
+        _check_triangles(node, mesh)
+        return mesh
 
 
 def scaled(mesh: Mesh, scale: Vector) -> Mesh:
@@ -85,17 +82,22 @@ def scaled(mesh: Mesh, scale: Vector) -> Mesh:
     return Mesh(vertices, mesh.triangles)
 
 
-def _check_triangles(node: Node, parts: Dict[str, Any]) -> None:
+def _check_triangles(node: Node, mesh: Mesh) -> None:
     """Each triangle names three different vertices that are there."""
-    count = len(parts["vertices"]) if "vertices" in parts else None
-    for index, triangle in enumerate(parts["triangles"]):
-        path = node.path + ("triangles", str(index))
-        if len(set(triangle)) < 3:
-            node.report.add(path, "must name three different vertices", show(list(triangle)))
-        elif count is not None and max(triangle) >= count:
-            node.report.add(
-                path, "must name vertices from 0 to {}".format(count - 1), show(list(triangle))
-            )
+    last = len(mesh.vertices) - 1
+    wrong = [
+        index
+        for index, triangle in enumerate(mesh.triangles)
+        if max(triangle) > last or len(set(triangle)) < 3
+    ]
+    for index in wrong:
+        node.report.add(
+            node.path + ("triangles", str(index)),
+            "must name three different vertices from 0 to {}".format(last),
+            show(list(mesh.triangles[index])),
+        )
+    if wrong:
+        raise Unreadable
 
 
 def _read_file(node: Node) -> Tuple[str, Mesh]:

@@ -144,7 +144,8 @@ class CollisionSpec:
 class OverstretchSpec:
     """Barrier that keeps two agents from overstretching the object (paper, eq. 8)."""
 
-    max_distance: Optional[float] = None  # m between held points; None: 99 % of the free length
+    max_distance: Optional[float] = None  # m between held points; None: a fraction of their
+    fraction: float = 0.99  # free length
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
 
 
