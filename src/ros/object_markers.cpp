@@ -45,8 +45,7 @@ visualization_msgs::MarkerArray ObjectMarkers::draw(const ObjectState& state) {
     array.markers.push_back(drawing_->drawCopy(state, copy, axisColor(&state.displacements[3 * copy])));
   }
   for (std::size_t copy = copies; copy < copies_drawn_; ++copy) {
-    Marker gone =
-        emptyMarker(state, "copies", static_cast<int>(copy), Marker::LINE_STRIP, toColor(0.0, 0.0, 0.0, 0.0));
+    Marker gone = emptyMarker(state, "copies", static_cast<int>(copy), Marker::LINE_STRIP, toColor(0.0, 0.0, 0.0, 0.0));
     gone.action = Marker::DELETE;
     array.markers.push_back(gone);
   }

@@ -45,9 +45,7 @@ pbd::FabricParameters readFabric(const ScenarioSection& object, const ScenarioSe
 }
 
 struct BodyMaker {
-  std::unique_ptr<pbd::Body> operator()(const pbd::RodParameters& rod) const {
-    return std::make_unique<pbd::Rod>(rod);
-  }
+  std::unique_ptr<pbd::Body> operator()(const pbd::RodParameters& rod) const { return std::make_unique<pbd::Rod>(rod); }
   std::unique_ptr<pbd::Body> operator()(const pbd::FabricParameters& fabric) const {
     return std::make_unique<pbd::Fabric>(fabric);
   }
