@@ -2,6 +2,8 @@
 
 from functools import singledispatch
 
+import numpy as np
+
 from deformable_manipulation import _pbd
 from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Scenario, SimulationSpec
 
@@ -36,8 +38,8 @@ def _make_rod(spec: RodSpec, simulation: SimulationSpec) -> _pbd.Rod:
 @make_body.register(FabricSpec)
 def _make_fabric(spec: FabricSpec, simulation: SimulationSpec) -> _pbd.Body:
     return _pbd.Fabric(
-        vertices=spec.vertices,
-        triangles=spec.triangles,
+        vertices=np.array(spec.vertices),
+        triangles=np.array(spec.triangles),
         density=spec.density,
         thickness=spec.thickness,
         stretching_compliance=spec.stretching_compliance,

@@ -1,7 +1,7 @@
 """The ``object`` section of a fabric, and where its particles are before it is deformed."""
 
 from functools import lru_cache
-from typing import Any, Dict
+from typing import Any, Dict, Tuple
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
@@ -103,11 +103,14 @@ def _check_body(node: Node, fabric: FabricSpec) -> None:
         raise Unreadable from None
 
 
-def _key_path(node: Node, key: str):
-    """The path of a parameter of the simulation below ``object``."""
+def _key_path(node: Node, key: str) -> Tuple[str, ...]:
+    """Where below ``object`` a parameter of the simulation comes from."""
     if key in node.value:
         return (key,)
-    return ("mesh",) if "mesh" in node.value else ("size",)
+    mesh = node.value.get("mesh")
+    if mesh is None:
+        return ("size",)
+    return ("mesh", key) if isinstance(mesh, dict) and key in mesh else ("mesh",)
 
 
 @lru_cache(maxsize=4)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.fabric_grid import grid_mesh
 
 cells = st.integers(1, 12)
@@ -69,9 +70,9 @@ def test_sizes_of_no_whole_number_of_cells(fabric_mapping, change, problems_of, 
 
 
 def test_nearest_sizes_are_accepted(fabric_mapping, change, tmp_path):
-    from deformable_manipulation.scenario import scenario_from_mapping
-
     change(fabric_mapping, "object.resolution", 7)
+    change(fabric_mapping, "agents.helper.particle", 6)
+    change(fabric_mapping, "agents.helper.start", [0.7, 0.0, 1.0])
     change(fabric_mapping, "object.size", [0.857142857, 1.0])
     assert scenario_from_mapping(fabric_mapping, tmp_path).object.particles == 7 * 8
 

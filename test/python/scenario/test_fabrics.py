@@ -86,7 +86,8 @@ def test_what_the_simulation_refuses_is_a_mistake_like_others(inline, change, pr
     change(inline, "object.mesh.vertices.2", [0.5, 0.0, 0.0])  # a triangle without area
     change(inline, "controller.gain", -1)
     found = problems_of(inline)
-    assert set(found) == {"object.mesh", "controller.gain"}
+    assert set(found) == {"object.mesh.triangles", "controller.gain"}
+    assert "has no area must be of three corners" in found["object.mesh.triangles"]
 
 
 def test_file_and_scale(inline, change, tmp_path):
