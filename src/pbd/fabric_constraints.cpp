@@ -1,6 +1,7 @@
 #include "fabric_constraints.h"
 
 #include <algorithm>
+#include <array>
 #include <list>
 
 namespace deformable_manipulation {
@@ -8,10 +9,15 @@ namespace pbd {
 namespace {
 
 // Places between two constraints that touch a common vertex, and how far ahead such are searched for.
-constexpr int kApart = 6;
+constexpr int kApart = 3;
 constexpr int kLookAhead = 96;
 
 int place(int vertex) { return 3 * kLanes * vertex; }
+
+std::array<double, 4> weightsOf(const HingeConstraint& hinge) {
+  const double* w = hinge.weight;
+  return {-(w[0] + w[1] + w[2]), w[0], w[1], w[2]};
+}
 
 //! Multiplier per violation, 1 / (response + compliance); 0 where nothing can move and nothing yields.
 double stiffness(double response, double compliance) {
@@ -81,8 +87,8 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
   for (int i : independentOrder(interior_vertices, count)) {
     HingeConstraint hinge{};
     const std::array<double, 4> weights = foldWeights(vertices, *interior[i]);
+    std::copy(weights.begin() + 1, weights.end(), hinge.weight);
     for (int k = 0; k < 4; ++k) {
-      hinge.weight[k] = weights[k];
       hinge.at[k] = place(interior_vertices[i][k]);
     }
     hinge.stretch.rest_length = interior[i]->length;
@@ -112,16 +118,17 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
   };
   for (std::size_t i = 0; i < hinges_.size(); ++i) {
     HingeConstraint& hinge = hinges_[i];
+    const std::array<double, 4> weights = weightsOf(hinge);
     updateStretch(hinge.stretch, hinge.at, i);
     double response = 0.0;
     for (int k = 0; k < 4; ++k) {
-      response += mobility(hinge.at[k]) * hinge.weight[k] * hinge.weight[k];
+      response += mobility(hinge.at[k]) * weights[k] * weights[k];
     }
     const double s = stiffness(response, bending_compliance * rest_[i].fold_area * per_h2);
     for (int k = 0; k < 4; ++k) {
-      hinge.gain[k] = -s * mobility(hinge.at[k]) * hinge.weight[k];
+      hinge.gain[k] = -s * mobility(hinge.at[k]) * weights[k];
     }
-    hinge.weight_of_stretch = hinge.weight[0] * hinge.stretch.gain[0] + hinge.weight[1] * hinge.stretch.gain[1];
+    hinge.weight_of_stretch = weights[0] * hinge.stretch.gain[0] + weights[1] * hinge.stretch.gain[1];
     fold_spring_[i] = s * per_h2;
   }
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
@@ -136,7 +143,7 @@ Vector3 FabricConstraints::force(int vertex, const double* recorded) const {
   for (std::size_t i = 0; i < hinges_.size(); ++i, recorded += kRecordedOfHinge) {
     for (int k = 0; k < 4; ++k) {
       if (hinges_[i].at[k] == at) {
-        force -= fold_spring_[i] * hinges_[i].weight[k] * read(recorded + 3 * kLanes);
+        force -= fold_spring_[i] * weightsOf(hinges_[i])[k] * read(recorded + 3 * kLanes);
         if (k < 2) {
           force += (k == 0 ? spring_[i] : -spring_[i]) * read(recorded);
         }

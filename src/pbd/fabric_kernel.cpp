@@ -89,56 +89,60 @@ class FabricPack {
 
   template <bool recording>
   void solve() {
-    for (int i = 0; i < in_.hinge_count; ++i) {
-      solveHinge<recording>(in_.hinges[i], recorded_ + i * kRecordedOfHinge);
+    double* recorded = recorded_;
+    const HingeConstraint* const hinges_end = in_.hinges + in_.hinge_count;
+    for (const HingeConstraint* hinge = in_.hinges; hinge != hinges_end; ++hinge) {
+      solveHinge<recording>(*hinge, recorded);
+      recorded += recording ? kRecordedOfHinge : 0;
     }
-    double* recorded = recorded_ + in_.hinge_count * kRecordedOfHinge;
-    for (int i = 0; i < in_.boundary_count; ++i) {
-      solveBoundary<recording>(in_.boundaries[i], recorded + i * kRecordedOfBoundary);
+    const BoundaryConstraint* const boundaries_end = in_.boundaries + in_.boundary_count;
+    for (const BoundaryConstraint* boundary = in_.boundaries; boundary != boundaries_end; ++boundary) {
+      solveBoundary<recording>(*boundary, recorded);
+      recorded += recording ? kRecordedOfBoundary : 0;
     }
   }
 
-  //! By how much an edge is too long, along it.
-  DM_INLINE static Vec3 excess(const StretchConstraint& constraint, Vec3& edge) {
-    const Pack inverse_length = inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
-    return (1.0 - constraint.rest_length * inverse_length) * edge;
+  //! By how much an edge is too long, as a part of its length.
+  DM_INLINE static Pack excess(const StretchConstraint& constraint, Vec3& edge) {
+    return 1.0 - constraint.rest_length * inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
   }
 
   //! The edge first, then the fold with the edge as corrected.
   template <bool recording>
   DM_INLINE void solveHinge(const HingeConstraint& c, double* recorded) {
+    double* const at[4] = {position_ + c.at[0], position_ + c.at[1], position_ + c.at[2], position_ + c.at[3]};
     Vec3 x[4];
     for (int i = 0; i < 4; ++i) {
-      x[i] = load3(position_ + c.at[i], kLanes);
+      x[i] = load3(at[i], kLanes);
     }
     Vec3 edge = x[1] - x[0];
-    Vec3 fold = broadcast(c.weight[1]) * edge;
-    fold = scaleAdd(broadcast(c.weight[2]), x[2] - x[0], fold);
-    fold = scaleAdd(broadcast(c.weight[3]), x[3] - x[0], fold);
-    Vec3 excess = this->excess(c.stretch, edge);
-    fold = scaleAdd(broadcast(c.weight_of_stretch), excess, fold);
+    Vec3 fold = broadcast(c.weight[1]) * (x[2] - x[0]);
+    fold = scaleAdd(broadcast(c.weight[2]), x[3] - x[0], fold);
+    const Pack excess = this->excess(c.stretch, edge);
+    fold = scaleAdd(c.weight[0] + c.weight_of_stretch * excess, edge, fold);
     if (recording) {
-      store3(recorded, kLanes, excess);
+      store3(recorded, kLanes, excess * edge);
       store3(recorded + 3 * kLanes, kLanes, fold);
     }
-    x[0] = scaleAdd(broadcast(c.stretch.gain[0]), excess, x[0]);
-    x[1] = scaleAdd(broadcast(c.stretch.gain[1]), excess, x[1]);
+    x[0] = scaleAdd(c.stretch.gain[0] * excess, edge, x[0]);
+    x[1] = scaleAdd(c.stretch.gain[1] * excess, edge, x[1]);
     for (int i = 0; i < 4; ++i) {
-      store3(position_ + c.at[i], kLanes, scaleAdd(broadcast(c.gain[i]), fold, x[i]));
+      store3(at[i], kLanes, scaleAdd(broadcast(c.gain[i]), fold, x[i]));
     }
   }
 
   template <bool recording>
   DM_INLINE void solveBoundary(const BoundaryConstraint& c, double* recorded) {
-    Vec3 start = load3(position_ + c.at[0], kLanes);
-    Vec3 end = load3(position_ + c.at[1], kLanes);
+    double* const at[2] = {position_ + c.at[0], position_ + c.at[1]};
+    Vec3 start = load3(at[0], kLanes);
+    Vec3 end = load3(at[1], kLanes);
     Vec3 edge = end - start;
-    Vec3 excess = this->excess(c.stretch, edge);
+    const Pack excess = this->excess(c.stretch, edge);
     if (recording) {
-      store3(recorded, kLanes, excess);
+      store3(recorded, kLanes, excess * edge);
     }
-    store3(position_ + c.at[0], kLanes, scaleAdd(broadcast(c.stretch.gain[0]), excess, start));
-    store3(position_ + c.at[1], kLanes, scaleAdd(broadcast(c.stretch.gain[1]), excess, end));
+    store3(at[0], kLanes, scaleAdd(c.stretch.gain[0] * excess, edge, start));
+    store3(at[1], kLanes, scaleAdd(c.stretch.gain[1] * excess, edge, end));
   }
 
   const FabricInput& in_;

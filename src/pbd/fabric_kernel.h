@@ -24,13 +24,14 @@ struct StretchConstraint {
 };
 
 //! An edge between two triangles: a spring that also resists folding. A vertex moves by its gain times the fold, the
-//! sum of the four vertices by their weights.
+//! sum of the vertices by their weights; as these sum to zero, positions count from the first vertex, and its weight is
+//! not needed.
 struct HingeConstraint {
   StretchConstraint stretch;
-  double weight[4];
-  double gain[4];
+  double weight[3];          // of the vertices but the first
   double weight_of_stretch;  // change of the fold by the correction of the stretch
-  int at[4];                 // vertices' places in the arrays: both ends of the edge, then those opposite
+  double gain[4];
+  int at[4];  // vertices' places in the arrays: both ends of the edge, then those opposite
 };
 
 //! An edge on the boundary.

@@ -60,6 +60,7 @@ void bindBody(py::module_& module) {
       .def_property_readonly("point_count", &Body::pointCount, "P, geometry points per copy.")
       .def_property_readonly("copy_count", &Body::copyCount, "C, with the object itself.")
       .def_property_readonly("mass", &Body::mass, "Mass [kg].")
+      .def_property_readonly("stretch", &Body::stretch, "Relative error of the object's own length or size.")
       .def("free_length", &Body::freeLength, py::arg("particle"), py::arg("other"),
            "Largest distance [m] between two particles of the unstretched object.")
       .def(

@@ -21,12 +21,13 @@ std::vector<Vector3> toVertices(const Points& given) {
   return vertices;
 }
 
-std::unique_ptr<Fabric> makeFabric(const Points& vertices, const py::array& triangles, double density, double thickness,
-                                   double stretching_compliance, double bending_compliance, double damping, int threads,
-                                   const Vector3& gravity, const Vector3& position, const Vector4& orientation) {
+std::unique_ptr<Fabric> makeFabric(const Points& vertices, const py::object& triangles, double density,
+                                   double thickness, double stretching_compliance, double bending_compliance,
+                                   double damping, int threads, const Vector3& gravity, const Vector3& position,
+                                   const Vector4& orientation) {
   FabricParameters p;
   p.vertices = toVertices(vertices);
-  p.triangles = toTriangles(triangles, vertices.shape(0));
+  p.triangles = toTriangles(py::array::ensure(triangles), vertices.shape(0));
   p.density = density;
   p.thickness = thickness;
   p.stretching_compliance = stretching_compliance;

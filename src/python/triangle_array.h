@@ -13,7 +13,7 @@
 inline std::vector<std::array<int, 3>> toTriangles(const pybind11::array& given, pybind11::ssize_t points,
                                                    const std::string& or_else = "") {
   namespace py = pybind11;
-  const char kind = given.dtype().kind();
+  const char kind = given ? given.dtype().kind() : '?';  // null where it was no array
   if ((kind != 'i' && kind != 'u') || given.ndim() != 2 || given.shape(0) < 1 || given.shape(1) != 3) {
     throw py::value_error("triangles must be whole numbers of the shape (triangles >= 1, 3)" + or_else);
   }
