@@ -8,7 +8,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from deformable_manipulation.distance.mesh_files import read_mesh
+from deformable_manipulation.distance.mesh_files import scaled_mesh
 from deformable_manipulation.distance.planes import PlaneFrame
 from deformable_manipulation.scenario.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle
@@ -55,7 +55,7 @@ def _draw_surface(marker, corners):
 
 
 def _draw_mesh(marker, obstacle):
-    vertices, triangles = read_mesh(obstacle.mesh)
+    vertices, triangles = scaled_mesh(obstacle)
     if len(triangles) > _MOST_TRIANGLES:
         marker.type = Marker.MESH_RESOURCE
         marker.mesh_resource = Path(obstacle.mesh).as_uri()
@@ -64,7 +64,7 @@ def _draw_mesh(marker, obstacle):
         marker.scale = Vector3(*obstacle.scale)
         return
     turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
-    placed = (vertices * obstacle.scale) @ turn + obstacle.translation
+    placed = vertices @ turn + obstacle.translation
     _draw_surface(marker, placed[triangles].reshape(-1, 3))
 
 

@@ -68,7 +68,8 @@ class InlineMesh:
 
     def __call__(self, node: Node) -> Mesh:
         if isinstance(node.value, str) and node.value:
-            return _read_file(node)[1]
+            _, vertices, triangles = _read_file(node)
+            return Mesh(_tuples(vertices), _tuples(triangles))
         if not isinstance(node.value, dict):
             node.fail("must be {}".format(self.allowed))
         mesh = _INLINE(node)
@@ -100,8 +101,8 @@ def _check_triangles(node: Node, mesh: Mesh) -> None:
         raise Unreadable
 
 
-def _read_file(node: Node) -> Tuple[str, Mesh]:
-    """Absolute path and content of the mesh file that a node names."""
+def _read_file(node: Node):
+    """Absolute path, vertices (V, 3) and triangles (T, 3) of the mesh file that a node names."""
     # Imported late: it loads libraries that scenarios without mesh files do not need.
     from deformable_manipulation.distance.mesh_files import MeshError, read_mesh
 
@@ -110,7 +111,7 @@ def _read_file(node: Node) -> Tuple[str, Mesh]:
         vertices, triangles = read_mesh(path)
     except (MeshError, FileNotFoundError) as error:
         node.fail(str(error))
-    return path, Mesh(_tuples(vertices), _tuples(triangles))
+    return path, vertices, triangles
 
 
 def _tuples(array) -> Tuple[Tuple[Any, ...], ...]:
