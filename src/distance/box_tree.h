@@ -57,6 +57,9 @@ struct Box {
 //! Four numbers of single precision in one register.
 typedef float FourFloats __attribute__((vector_size(4 * sizeof(float))));
 
+inline FourFloats larger(const FourFloats& a, const FourFloats& b) { return a > b ? a : b; }
+inline FourFloats absolute(const FourFloats& a) { return larger(a, -a); }
+
 //! A node's four children, their boxes side by side. A child is a node (0 or more), a leaf (~index), or none.
 struct BoxNode {
   static constexpr int kNone = 0x7fffffff;
@@ -97,12 +100,42 @@ struct BoxNode {
     FourFloats sum = {};
     for (int k = 0; k < 3; ++k) {
       const FourFloats below = low[k] - other.high[k], above = other.low[k] - high[k];
-      FourFloats gap = below > above ? below : above;
+      FourFloats gap = larger(below, above);
       gap = gap > 0.0F ? gap : FourFloats{};
       sum += gap * gap;
     }
     return sum * (1.0F - 1e-6F);  // rounding
   }
+};
+
+//! The plane of a triangle, in single precision.
+class FlatElement {
+ public:
+  //! @param normal of any length
+  FlatElement(const Vector3& point, const Vector3& normal) {
+    const double length = normal.norm();
+    normal_ = (length > 0.0 ? Vector3(normal / (length * (1.0 + 1e-6))) : Vector3::Zero()).cast<float>();
+    offset_ = static_cast<float>(normal_.cast<double>().dot(point));
+    size_ = static_cast<float>(point.lpNorm<1>());
+  }
+
+  //! Lower bounds [m^2] of the squared distances between the plane and a node's children.
+  FourFloats squaredDistances(const BoxNode& node) const {
+    FourFloats along = FourFloats{} - offset_, reach = {};
+    for (int k = 0; k < 3; ++k) {
+      along += 0.5F * normal_[k] * (node.low[k] + node.high[k]);
+      reach += 0.5F * std::fabs(normal_[k]) * (node.high[k] - node.low[k]);
+    }
+    const float most = std::max(-*std::min_element(node.box.low.begin(), node.box.low.end()),
+                                *std::max_element(node.box.high.begin(), node.box.high.end()));
+    FourFloats gap = absolute(along) - reach - 2e-6F * (size_ + 3.0F * most);
+    gap = gap > 0.0F ? gap : FourFloats{};  // of a child that is none: NaN, and so 0
+    return gap * gap;
+  }
+
+ private:
+  Eigen::Vector3f normal_;
+  float offset_, size_;
 };
 
 //! A tree of boxes with four children a node; node 0 is the root.
@@ -114,8 +147,7 @@ BoxTree buildBoxTree(const std::vector<Box>& leaves);
 //! The children of a node in the order of their bounds, the farthest first; those not below the limit are left out.
 class NearChildren {
  public:
-  NearChildren(const BoxNode& node, const Box& other, double limit) {
-    const FourFloats bounds = node.squaredDistances(other);
+  NearChildren(const BoxNode& node, const FourFloats& bounds, double limit) {
     for (int slot = 0; slot < 4; ++slot) {
       if (bounds[slot] < limit) {
         int at = count_++;

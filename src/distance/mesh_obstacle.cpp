@@ -72,7 +72,8 @@ class MeshObstacle::Search {
     object_.setElements(object);
     bring(object, 0);
     for (Part& part : parts_) {
-      part.search->elements(object_, limit, &places_);
+      part.last.resize(object.copies);
+      part.search->elements(object_, limit, guess(part, 0), &places_);
       if (selection == Selection::LOCAL) {
         keepLocalMinima(object_, &places_);
       }

@@ -89,7 +89,7 @@ void MeshSearch::search(int object_root, Nearest* nearest) {
     }
     const Pair pair = entry.what;
     if (pair.object >= 0 || pair.surface >= 0) {
-      expand(pair, nearest->at.squared);
+      expand<K>(pair, nearest->at.squared);
       continue;
     }
     const Corners<K> element = object_->corners<K>(~pair.object);
@@ -102,23 +102,42 @@ void MeshSearch::search(int object_root, Nearest* nearest) {
 }
 
 //! Pushes the pairs of one's children with the other; of two nodes the larger one is opened.
+template <int K>
 void MeshSearch::expand(const Pair& pair, double limit) {
-  const Box of_object = pair.object < 0 ? object_->boxOf(~pair.object) : object_->tree()[pair.object].box;
-  if (pair.surface >= 0) {
-    const BoxNode& node = surface_.tree()[pair.surface];
-    if (pair.object < 0 || node.box.extent() >= of_object.extent()) {
-      const NearChildren near(node, of_object, limit);
-      for (int i = 0; i < near.count(); ++i) {
-        stack_.push(near.bound(i), {pair.object, near.child(i)});
-      }
-      return;
-    }
+  if (pair.object < 0) {
+    expandSurface(pair, boundsOf<K>(~pair.object, pair.surface), limit);
+    return;
+  }
+  const BoxNode& of_object = object_->tree()[pair.object];
+  if (pair.surface >= 0 && surface_.tree()[pair.surface].box.extent() >= of_object.box.extent()) {
+    expandSurface(pair, surface_.tree()[pair.surface].squaredDistances(of_object.box), limit);
+    return;
   }
   const Box of_surface = pair.surface < 0 ? surface_.boxOf(~pair.surface) : surface_.tree()[pair.surface].box;
-  const NearChildren near(object_->tree()[pair.object], of_surface, limit);
+  const NearChildren near(of_object, of_object.squaredDistances(of_surface), limit);
   for (int i = 0; i < near.count(); ++i) {
     stack_.push(near.bound(i), {near.child(i), pair.surface});
   }
+}
+
+void MeshSearch::expandSurface(const Pair& pair, const FourFloats& bounds, double limit) {
+  const NearChildren near(surface_.tree()[pair.surface], bounds, limit);
+  for (int i = 0; i < near.count(); ++i) {
+    stack_.push(near.bound(i), {pair.object, near.child(i)});
+  }
+}
+
+//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface.
+template <int K>
+FourFloats MeshSearch::boundsOf(int element, int node) const {
+  const Corners<K> corners = object_->corners<K>(element);
+  const FourFloats by_boxes = surface_.tree()[node].squaredDistances(object_->boxOf(element));
+  const FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(FloatElement<K>(corners)));
+  if (K == 2) {
+    return bounds;
+  }
+  const FlatElement plane(corners[0], (corners[1] - corners[0]).cross(corners[K - 1] - corners[0]));
+  return larger(bounds, plane.squaredDistances(surface_.tree()[node]));
 }
 
 //! Whether a piece of the object, other than the one known to be outside, has its first point inside.
@@ -138,13 +157,14 @@ bool MeshSearch::pieceInside(int certified_piece) {
 MeshPlace MeshSearch::deepest(double known_depth) {
   MeshPlace best;
   best.distance = 0.0;
-  descend(0, -1, known_depth - kSlack - ElementDepth::kTolerance, &best);
+  known_depth_ = known_depth - kSlack - ElementDepth::kTolerance;
+  descend(0, &best);
   return best.known() ? best : MeshPlace();
 }
 
 //! @param child a node, or a leaf as ~index
-void MeshSearch::descend(int child, int hint, double known_depth, MeshPlace* best) {
-  const auto threshold = [&] { return std::max(known_depth, -best->distance); };
+void MeshSearch::descend(int child, MeshPlace* best) {
+  const auto threshold = [&] { return std::max(known_depth_, -best->distance); };
   if (child < 0) {
     const MeshPlace place = deepestOf(~child, threshold());
     if (place.distance < best->distance) {
@@ -157,7 +177,7 @@ void MeshSearch::descend(int child, int hint, double known_depth, MeshPlace* bes
   int count = 0;
   for (int slot = 0; slot < 4; ++slot) {
     if (node.children[slot] != BoxNode::kNone) {
-      const double bound = depthBound(node.childBox(slot), &hint);
+      const double bound = depthBound(node.children[slot], node.childBox(slot));
       int at = count++;
       for (; at > 0 && candidates[at - 1].depth < bound; --at) {
         candidates[at] = candidates[at - 1];
@@ -166,25 +186,29 @@ void MeshSearch::descend(int child, int hint, double known_depth, MeshPlace* bes
     }
   }
   for (int i = 0; i < count && candidates[i].depth > threshold(); ++i) {
-    descend(candidates[i].child, hint, known_depth, best);
+    descend(candidates[i].child, best);
   }
 }
 
-//! How deep [m] a point in a box can be at most.
-double MeshSearch::depthBound(const Box& box, int* hint) const {
+//! How deep [m] a child's point can be at most: the depth changes by no more than the way, and inside it is at most the
+//! distance to any triangle, which is convex.
+double MeshSearch::depthBound(int child, const Box& box) {
+  const int representative = object_->representative(child);
+  const SurfacePoint& there = cornerSample(representative, -1);
+  known_depth_ = std::max(known_depth_, -there.distance - kSlack - ElementDepth::kTolerance);
+  const Vector3& point = object_->point(representative);
   const Vector3 middle = box.middle(), half = box.halfSides();
-  const SurfacePoint there = surface_.nearest(middle, *hint);
-  *hint = there.triangle;
-  const double lipschitz = half.norm() - there.distance;
-  if (there.distance >= 0.0) {
-    return lipschitz;
-  }
-  double farthest = 0.0;  // from the triangle, of the box's corners: the distance to it is convex
+  double way = 0.0, farthest = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 signs(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-    farthest = std::max(farthest, surface_.distanceTo(there.triangle, middle + half.cwiseProduct(signs)));
+    const Vector3 place = middle + half.cwiseProduct(signs);
+    way = std::max(way, (place - point).squaredNorm());
+    if (there.distance < 0.0) {
+      farthest = std::max(farthest, surface_.distanceTo(there.triangle, place));
+    }
   }
-  return std::min(lipschitz, farthest);
+  const double by_way = std::sqrt(way) - there.distance;
+  return there.distance < 0.0 ? std::min(by_way, farthest) : by_way;
 }
 
 MeshPlace MeshSearch::deepestOf(int element, double threshold) {
@@ -199,16 +223,26 @@ MeshPlace MeshSearch::deepestOf(int element, double threshold) {
   return found.triangle < 0 ? MeshPlace() : placeAt(element, found.weights, -found.depth, found.triangle);
 }
 
-void MeshSearch::elements(const ObjectTree& object, double limit, std::vector<MeshPlace>* places) {
-  start(object);
+void MeshSearch::elements(const ObjectTree& object, double limit, const MeshPlace& guess,
+                          std::vector<MeshPlace>* places) {
+  const bool inside = surface_.closed() && minimum(object, 0.0, guess).distance <= 0.0;
   places->assign(object.size(), MeshPlace());
   const double reach = std::max(limit, 0.0);
   for (int element = 0; element < object.size(); ++element) {
     const FourFloats away = surface_.tree()[0].squaredDistances(object.boxOf(element));
     if (*std::min_element(&away[0], &away[0] + 4) <= reach * reach) {
-      (*places)[element] = elementPlace(element, limit);
+      (*places)[element] = inside ? elementPlace(element, limit) : outsidePlace(element, limit);
     }
   }
+}
+
+MeshPlace MeshSearch::outsidePlace(int element, double limit) {
+  const double bound = std::max(limit, 0.0) + kSlack;
+  const Nearest found = nearestPair(~element, bound * bound);
+  const MeshPlace place =
+      found.element < 0 ? MeshPlace()
+                        : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+  return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
 MeshPlace MeshSearch::elementPlace(int element, double limit) {

@@ -39,8 +39,9 @@ class MeshSearch {
   MeshPlace minimum(const ObjectTree& object, double bound, const MeshPlace& guess);
 
   //! The point of each element with its least signed distance, where that is at most `limit` [m].
+  //! @param guess a place that was the nearest before, or unknown; for speed only
   //! @param places [elements] of the object, not known() elsewhere
-  void elements(const ObjectTree& object, double limit, std::vector<MeshPlace>* places);
+  void elements(const ObjectTree& object, double limit, const MeshPlace& guess, std::vector<MeshPlace>* places);
 
  private:
   struct Pair {
@@ -62,13 +63,18 @@ class MeshSearch {
   Nearest nearestPair(int object_root, double squared_bound);
   template <int K>
   void search(int object_root, Nearest* nearest);
+  template <int K>
   void expand(const Pair& pair, double limit);
+  void expandSurface(const Pair& pair, const FourFloats& bounds, double limit);
+  template <int K>
+  FourFloats boundsOf(int element, int node) const;
 
   bool pieceInside(int certified_piece);
   MeshPlace deepest(double known_depth);
-  void descend(int child, int hint, double known_depth, MeshPlace* best);
-  double depthBound(const Box& box, int* hint) const;
+  void descend(int child, MeshPlace* best);
+  double depthBound(int child, const Box& box);
   MeshPlace deepestOf(int element, double threshold);
+  MeshPlace outsidePlace(int element, double limit);
   MeshPlace elementPlace(int element, double limit);
   double lowestPossible(int element, double* least);
   MeshPlace middleOfLevel(const MeshPlace& place);
@@ -80,6 +86,7 @@ class MeshSearch {
   std::vector<SurfacePoint> samples_;  // of the object's points
   std::vector<int> sampled_;           // in which round
   int round_ = 0;
+  double known_depth_ = 0.0;  // m, what is not deeper need not be found
 };
 
 }  // namespace distance

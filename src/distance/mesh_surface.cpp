@@ -19,6 +19,7 @@ MeshSurface::MeshSurface(const MeshPart& part)
   }
   tree_ = buildBoxTree(leaves);
   sortLikeTree();
+  discs_ = buildDiscTree(tree_, [this](int triangle) { return corners(triangle); });
   if (closed_) {
     neighbours_ = edgeNeighbours(triangles_, vertices_.size());
     sumCornerNormals();
@@ -82,6 +83,7 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint) const {
   };
   Box box;
   box.include(point);
+  const FloatElement<1> element({point});
   SearchStack<int> stack;
   stack.push(0.0F, 0);
   while (!stack.empty()) {
@@ -93,7 +95,9 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint) const {
       improve(~entry.what);
       continue;
     }
-    const NearChildren near(tree_[entry.what], box, least);
+    const FourFloats by_boxes = tree_[entry.what].squaredDistances(box);
+    const FourFloats by_discs = discs_[entry.what].squaredDistances(element);
+    const NearChildren near(tree_[entry.what], larger(by_boxes, by_discs), least);
     for (int i = 0; i < near.count(); ++i) {
       stack.push(near.bound(i), near.child(i));
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "box_tree.h"
+#include "disc_tree.h"
 #include "mesh_cleaning.h"
 #include "triangle_geometry.h"
 
@@ -24,6 +25,7 @@ class MeshSurface {
 
   bool closed() const { return closed_; }
   const BoxTree& tree() const { return tree_; }
+  const DiscNode& discs(int node) const { return discs_[node]; }
   const Box& box() const { return tree_[0].box; }
 
   Corners<3> corners(int triangle) const {
@@ -66,6 +68,7 @@ class MeshSurface {
   std::vector<Triangle> triangles_;
   bool closed_;
   BoxTree tree_;
+  std::vector<DiscNode> discs_;
   std::vector<Triangle> neighbours_;             // of closed ones only
   std::vector<Eigen::Vector3f> corner_normals_;  // [vertices] of closed ones only
 };

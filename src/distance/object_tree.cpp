@@ -32,6 +32,22 @@ void ObjectTree::setElements(const ObjectView& object) {
     }
   }
   tree_ = buildBoxTree(boxes_);
+  chooseRepresentatives(places);
+}
+
+void ObjectTree::chooseRepresentatives(const std::vector<Vector3>& places) {
+  representatives_.assign(tree_.size(), 0);
+  for (std::size_t n = tree_.size(); n-- > 0;) {
+    double least = INFINITY;
+    for (int child : tree_[n].children) {
+      const int point = child == BoxNode::kNone ? -1 : representative(child);
+      const double away = point < 0 ? INFINITY : (places[point] - tree_[n].box.middle()).squaredNorm();
+      if (away < least) {
+        least = away;
+        representatives_[n] = point;
+      }
+    }
+  }
 }
 
 bool ObjectTree::same(const ObjectView& object) const {

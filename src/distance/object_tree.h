@@ -39,6 +39,9 @@ class ObjectTree {
     return corners;
   }
 
+  //! A point in the middle of a node, or of a leaf (~index).
+  int representative(int child) const { return child < 0 ? elements_[~child][0] : representatives_[child]; }
+
   //! A point of each connected piece of the object, and which piece a point is of.
   const std::vector<int>& pieces() const { return pieces_; }
   int pieceOf(int point) const { return piece_of_[point]; }
@@ -51,11 +54,13 @@ class ObjectTree {
   bool same(const ObjectView& object) const;
   void listElementsOfPoints(int points);
   std::vector<Vector3> layOut(int points);
+  void chooseRepresentatives(const std::vector<Vector3>& places);
   int spread(int start, int axis, std::vector<Vector3>* places);
 
   bool surface_ = false;
   std::vector<Triangle> elements_;
   BoxTree tree_;
+  std::vector<int> representatives_;  // of the nodes
   std::vector<Box> boxes_;
   std::vector<int> pieces_, piece_of_;
   std::vector<int> first_of_, elements_of_;
