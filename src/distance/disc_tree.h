@@ -22,10 +22,16 @@ struct FloatElement {
       radius = std::max(radius, arms[k].norm() * (1.0F + 1e-6F));
     }
     rounding = 4e-7F * centre.template lpNorm<1>();
+    if (N == 3) {
+      const Vector3 across = (points[1] - points[0]).cross(points[N - 1] - points[0]);
+      const double length = across.norm();
+      normal = (length > 0.0 ? Vector3(across / (length * (1.0 + 1e-6))) : across).template cast<float>();
+    }
   }
 
   Eigen::Vector3f centre;
   std::array<Eigen::Vector3f, N> arms;  // from the centre to the corners
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit vector of a triangle, or zero
   float radius = 0.0F, rounding;
 };
 
@@ -58,20 +64,32 @@ class DiscNode {
       lowest = at < lowest ? at : lowest;
       highest = larger(at, highest);
     }
-    return squaredGaps(arm, along, along + lowest, along + highest, element.radius, element.rounding);
+    const FourFloats gap = larger(-highest - along, lowest + along) - half_thickness_ - element.rounding;
+    const FourFloats bounds = squaredGaps(arm, along, gap, element.radius + element.rounding);
+    return N == 3 ? larger(bounds, squared(overPlane(element.normal, arm) - element.rounding)) : bounds;
   }
 
  private:
-  FourFloats squaredGaps(const std::array<FourFloats, 3>& arm, const FourFloats& along, const FourFloats& lowest,
-                         const FourFloats& highest, float radius, float rounding) const {
+  //! How far the discs are away from an element's plane.
+  FourFloats overPlane(const Eigen::Vector3f& normal, const std::array<FourFloats, 3>& arm) const {
+    const FourFloats away = normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
+    const FourFloats cosine = normal[0] * normal_[0] + normal[1] * normal_[1] + normal[2] * normal_[2];
+    const FourFloats sine = squareRoot(larger(1.0F + 4e-6F - cosine * cosine, FourFloats{}));
+    return absolute(away) - radius_ * sine - half_thickness_;
+  }
+
+  FourFloats squaredGaps(const std::array<FourFloats, 3>& arm, const FourFloats& along, const FourFloats& gap,
+                         float radius) const {
     const FourFloats squared_arm = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
     // Sideways, what is left of the arm; less what rounding of the difference can have added.
     const FourFloats sideways = squared_arm * (1.0F - 2e-6F) - along * along;
-    FourFloats across = squareRoot(larger(sideways, FourFloats{})) - radius_ - (radius + rounding);
-    FourFloats gap = larger(-highest, lowest) - half_thickness_ - rounding;
-    gap = larger(gap, FourFloats{});
-    across = larger(across, FourFloats{});
-    return (gap * gap + across * across) * (1.0F - 2e-6F);
+    return squared(gap) + squared(squareRoot(larger(sideways, FourFloats{})) - radius_ - radius);
+  }
+
+  //! Of a gap, 0 if there is none.
+  static FourFloats squared(const FourFloats& gap) {
+    const FourFloats open = larger(gap, FourFloats{});
+    return open * open * (1.0F - 2e-6F);
   }
 
   static FourFloats squareRoot(const FourFloats& of) {

@@ -13,6 +13,7 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
   count_ = count;
   best_ = DeepPoint();
   cuts_.clear();
+  samples_ = 0;
   pieces_.clear();
   Piece whole;
   whole.corners = corners;
@@ -28,7 +29,7 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
     if (pieces_.front().solution.bound <= threshold) {
       return {};
     }
-    if (gap_ <= kTolerance || cuts_.size() >= kMostSamples) {
+    if (gap_ <= kTolerance || samples_ >= kMostSamples) {
       break;
     }
     refine(pop());
@@ -38,7 +39,12 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
 
 void ElementDepth::sample(const Vector3& point, const Weights& weights, const SurfacePoint& at) {
   const double depth = -at.distance;
-  cuts_.push_back({point, depth, depth > 0.0 ? at.triangle : -1});
+  const int triangle = depth > 0.0 ? at.triangle : -1;
+  const auto same = [triangle](const Cut& cut) { return cut.triangle == triangle; };
+  if (triangle < 0 || std::none_of(cuts_.begin(), cuts_.end(), same)) {
+    cuts_.push_back({point, depth, triangle});
+  }
+  ++samples_;
   if (depth > best_.depth) {
     best_ = {depth, at.triangle, weights};
   }
@@ -113,8 +119,9 @@ void ElementDepth::refine(Piece piece) {
       weights[i] += share * piece.weights[k][i];
     }
   }
-  sample(point, weights, surface_.nearest(point, best_.triangle));
-  const double wanted = before - kEnough * (before - std::max(cuts_.back().depth, best_.depth));
+  const SurfacePoint there = surface_.nearest(point, best_.triangle);
+  sample(point, weights, there);
+  const double wanted = before - kEnough * (before - std::max(-there.distance, best_.depth));
   solve(&piece);
   piece.solution.bound = std::min(piece.solution.bound, before);
   if (piece.solution.bound <= wanted) {

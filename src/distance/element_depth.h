@@ -61,6 +61,7 @@ class ElementDepth {
 
   const MeshSurface& surface_;
   int count_ = 3;
+  int samples_ = 0;
   DeepPoint best_;
   std::vector<Cut> cuts_;
   std::vector<Piece> pieces_;  // a heap, the highest bound first

@@ -96,6 +96,7 @@ const Distances& MinimumDistance::compute(const ObjectView& object) {
   for (Feature& feature : result_.features) {
     feature.distance -= margin_;
   }
+  tracker_.follow(object, selection_, &result_);
   return result_;
 }
 
