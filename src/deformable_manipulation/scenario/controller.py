@@ -49,6 +49,7 @@ COLLISION = Section(
         "alpha": _ALPHA,
         "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "gradient": Choice("features", "minimum"),
+        "backend": Choice("native", "reference"),
     },
 )
 

@@ -138,6 +138,7 @@ class CollisionSpec:
     alpha: Tuple[float, float] = (1.0, 5.0)  # 1/s, slopes of alpha(h) for h >= 0 and h < 0
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
+    backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
 
 
 @dataclass(frozen=True)
