@@ -37,7 +37,7 @@ def test_the_filter_keeps_the_fabric_off_the_cube(summary):
 
 
 def test_the_fabric_would_go_into_the_cube_without_it(tmp_path):
-    deeper = "leader.waypoints.1.position=[0.0, 0.0, -0.24]"
+    deeper = "leader.waypoints.1.position=[0.0, 0.0, -0.3]"
     unsafe = run(tmp_path, "--no-safety", "--set", "controller.rate=50", "--set", deeper)
     assert unsafe["min_distance"] < -0.02
 
