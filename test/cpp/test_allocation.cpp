@@ -8,7 +8,7 @@
 #include <new>
 #include <string>
 
-#include "rod_fixture.h"
+#include "fabric_fixture.h"
 
 namespace {
 
@@ -82,6 +82,26 @@ TEST(Allocation, doesNotHappenInAStep) {
 TEST(Allocation, doesNotHappenInAStepOfAFreeRod) {
   Rod rod(rope());
   EXPECT_EQ(allocationsIn(rod, 2), 0);
+}
+
+TEST(Allocation, doesNotHappenInAStepOfAFabric) {
+  for (int threads : {1, 2}) {
+    for (int copies : {1, 13}) {
+      FabricParameters p = cloth();
+      p.vertices[20].z() += 0.1;  // not flat: free lengths go along the surface
+      p.threads = threads;
+      const auto fabric = hangingCloth(p);
+      for (int i = 1; i < copies; ++i) {
+        fabric->addCopy(224, Vector3(0.0, 0.0, 0.01 * i));
+      }
+      fabric->setTwist(224, {Vector3(0.0, -0.1, 0.0), Vector3::Zero()});
+      for (int substeps : {2, 50}) {
+        EXPECT_EQ(allocationsIn(*fabric, substeps), 0) << copies << " copies, " << threads << " threads";
+      }
+    }
+  }
+  Fabric free(cloth());
+  EXPECT_EQ(allocationsIn(free, 2), 0);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
     ControllerSpec,
+    RodSpec,
     SimulationSpec,
 )
 
@@ -58,6 +59,16 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
             ("controller", "timeout"),
             "must be at least one cycle, 1 / controller.rate = {:g} s".format(1.0 / rate),
             show(controller.timeout),
+        )
+
+
+def check_jacobian(report: Report, spec, controller: ControllerSpec) -> None:
+    """Gradients come from what is known of the object."""
+    if controller.jacobian == "equilibrium" and not isinstance(spec, RodSpec):
+        report.add(
+            ("controller", "jacobian"),
+            "is known for rods only, not for a {}; use perturbed_copies".format(spec.type),
+            show(controller.jacobian),
         )
 
 
@@ -115,8 +126,8 @@ def check_limits(
         if _exceeds(limits.max_distance, length):
             report.add(
                 ("controller", "overstretch", "max_distance"),
-                "must be at most the free length between {}, {:.4g} m; auto takes 99 % of "
-                "it".format(between, length),
+                "must be at most the free length between {}, {:.4g} m; auto takes a "
+                "fraction of it".format(between, length),
                 show(limits.max_distance),
             )
         elif limits.min_distance >= limits.max_distance:

@@ -49,11 +49,17 @@ COLLISION = Section(
         "alpha": _ALPHA,
         "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "gradient": Choice("features", "minimum"),
+        "backend": Choice("native", "reference"),
     },
 )
 
 OVERSTRETCH = Section(
-    OverstretchSpec, {"max_distance": Auto("m", above=0.0), "alpha": _ALPHA}
+    OverstretchSpec,
+    {
+        "max_distance": Auto("m", above=0.0),
+        "fraction": Number("1", above=0.0, at_most=1.0),
+        "alpha": _ALPHA,
+    },
 )
 
 PROXIMITY = Section(

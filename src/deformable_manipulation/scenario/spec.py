@@ -6,7 +6,7 @@ The objects of this module hold checked values: they are made by
 """
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import Optional, Tuple, Union
 
 Vector = Tuple[float, float, float]
 Quaternion = Tuple[float, float, float, float]
@@ -109,7 +109,7 @@ class MeshObstacle:
     """
 
     name: str
-    mesh: str  # path of a file that Trimesh reads
+    mesh: str  # absolute path of a file that Trimesh reads
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
     scale: Vector = (1.0, 1.0, 1.0)  # m per unit of the file, along the file's axes
@@ -138,13 +138,15 @@ class CollisionSpec:
     alpha: Tuple[float, float] = (1.0, 5.0)  # 1/s, slopes of alpha(h) for h >= 0 and h < 0
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
+    backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
 
 
 @dataclass(frozen=True)
 class OverstretchSpec:
     """Barrier that keeps two agents from overstretching the object (paper, eq. 8)."""
 
-    max_distance: Optional[float] = None  # m between held points; None: 99 % of the free length
+    max_distance: Optional[float] = None  # m between held points; None: a fraction of their
+    fraction: float = 0.99  # free length
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
 
 
@@ -183,7 +185,7 @@ class SimulationSpec:
     duration: float  # s
     time_step: float = 0.01  # s; a whole number of them makes one controller cycle
     substeps: int = 2  # per time step
-    solver: str = "direct"  # of the rod's joints: "direct" or "gauss_seidel" (needs many substeps)
+    solver: str = "direct"  # of a rod's joints: "direct" or "gauss_seidel" (needs many substeps)
     gravity: Vector = (0.0, 0.0, -9.81)  # m/s^2
     record_rate: float = 10.0  # Hz, frames in states.npz
 
@@ -193,9 +195,9 @@ class Scenario:
     """A whole run: object, agents, obstacles, leader, controller, simulation."""
 
     name: str
-    object: RodSpec
+    object: Union[RodSpec, FabricSpec]
     agents: Tuple[AgentSpec, ...]  # in the file's order; exactly one leader
-    obstacles: Tuple[PolygonObstacle, ...]
+    obstacles: Tuple[Union[PolygonObstacle, MeshObstacle], ...]
     leader: LeaderSpec
     controller: ControllerSpec
     simulation: SimulationSpec
