@@ -1,4 +1,4 @@
-"""Fabrics at rest against the exact equilibrium of their mesh, springs in series and the elastica."""
+"""Fabrics at rest against the equilibrium of their mesh, springs in series and the elastica."""
 
 import numpy as np
 import pytest
