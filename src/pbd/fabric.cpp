@@ -21,10 +21,8 @@ namespace {
 // Substeps that the threads do before they wait for each other.
 constexpr int kSubstepsAtOnce = 16;
 
-// 1/s, and as a part of the damping: rest lengths adapt slowly, for they must not feed energy into vibrations faster
-// than damping takes it away.
-constexpr double kFastestAdaptation = 2.0;
-constexpr double kAdaptation = 0.2;
+//! 1/s. Rest lengths adapt slowly, for they must not feed energy into vibrations faster than damping takes it away.
+double adaptationRate(double damping) { return std::min(2.0, 0.2 * damping); }
 
 FabricParameters checked(const FabricParameters& parameters) {
   ParameterCheck check;
@@ -292,7 +290,7 @@ void Fabric::endStep() {
     FabricInput input = s.input;
     input.held = s.heldIn(0, group, holds().size());
     input.recorded = s.recorded[group].data();
-    input.adaptation = s.pending * s.input.h * std::min(kFastestAdaptation, kAdaptation * parameters_.damping);
+    input.adaptation = 1.0 - std::exp(-s.pending * s.input.h * adaptationRate(parameters_.damping));
     const int copies = std::min(copyCount() - group * kLanes, kLanes);
     selectedFabricKernel().advance(input, copies, s.pending, s.groups[group]);
   });
