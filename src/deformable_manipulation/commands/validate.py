@@ -21,8 +21,9 @@ CASE_NAMES = (
     "convergence",
     "motion",
     "wrenches",
+    "fabrics",
 )
-DESCRIPTION = """Compare the simulated rod with independent solutions of rod theory: shapes,
+DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory: shapes,
 reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
 EPILOG = """examples:
   validate                               docs/validation.md, some minutes
