@@ -46,4 +46,9 @@ SUBJECTS: Dict[str, Subject] = {
         "deformable_manipulation.benchmarks.qp",
         ("numpy", "quadprog", "qpsolvers"),
     ),
+    "distance": Subject(
+        "minimum distances to polygons and meshes, beside Shapely, FCL and Trimesh",
+        "deformable_manipulation.benchmarks.distance",
+        ("numpy", "shapely", "python-fcl", "trimesh"),
+    ),
 }
