@@ -30,7 +30,7 @@ struct FloatElement {
   }
 
   Eigen::Vector3f centre;
-  std::array<Eigen::Vector3f, N> arms;  // from the centre to the corners
+  std::array<Eigen::Vector3f, N> arms;               // from the centre to the corners
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit vector of a triangle, or zero
   float radius = 0.0F, rounding;
 };
@@ -114,8 +114,8 @@ class DiscNode {
     return FourFloats{std::sqrt(of[0]), std::sqrt(of[1]), std::sqrt(of[2]), std::sqrt(of[3])};
   }
 
-  std::array<FourFloats, 3> normal_;  // unit vectors, or zero: a ball
-  std::array<FourFloats, 3> centre_;  // m
+  std::array<FourFloats, 3> normal_;    // unit vectors, or zero: a ball
+  std::array<FourFloats, 3> centre_;    // m
   FourFloats radius_, half_thickness_;  // m
 };
 

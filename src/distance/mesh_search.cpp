@@ -61,7 +61,8 @@ MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const Mesh
   }
   const bool touches = found.at.squared == 0.0;
   const Vector3 point = weighted<3>(object.corners<3>(place.element), place.weights);
-  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 || pieceInside(object.pieceOf(place.vertices[0]))) {
+  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 ||
+      pieceInside(object.pieceOf(place.vertices[0]))) {
     const MeshPlace deep = deepest(known_depth);
     return deep.known() ? deep : place;
   }
@@ -127,8 +128,8 @@ void MeshSearch::expandSurface(const Pair& pair, const FourFloats& bounds, doubl
   }
 }
 
-//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those above
-//! the limit are rough.
+//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
+//! above the limit are rough.
 template <int K>
 FourFloats MeshSearch::boundsOf(int element, int node, double limit) const {
   const Corners<K> corners = object_->corners<K>(element);
@@ -224,8 +225,7 @@ MeshPlace MeshSearch::deepestOf(int element, double threshold) {
     samples[k] = cornerSample(object_->element(element)[k], hint);
     hint = samples[k].triangle;
   }
-  const DeepPoint found =
-      depth_.find(object_->corners<3>(element), object_->cornerCount(), samples, threshold);
+  const DeepPoint found = depth_.find(object_->corners<3>(element), object_->cornerCount(), samples, threshold);
   return found.triangle < 0 ? MeshPlace() : placeAt(element, found.weights, -found.depth, found.triangle);
 }
 
@@ -262,8 +262,7 @@ MeshSearch::Nearest MeshSearch::nearestOfElement(int element, double bound) {
 MeshPlace MeshSearch::outsidePlace(int element, double limit) {
   const Nearest found = nearestOfElement(element, std::max(limit, 0.0));
   const MeshPlace place =
-      found.element < 0 ? MeshPlace()
-                        : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+      found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
@@ -290,8 +289,8 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
-//! A lower bound [m] of an element's signed distance. It changes by no more than the way, and the ways from a point of a
-//! triangle to its corners add up to at most its two longer sides.
+//! A lower bound [m] of an element's signed distance. It changes by no more than the way, and the ways from a point of
+//! a triangle to its corners add up to at most its two longer sides.
 //! @param least gets that of its corners
 double MeshSearch::lowestPossible(int element, double* least) {
   const Triangle& vertices = object_->element(element);
@@ -311,7 +310,8 @@ double MeshSearch::lowestPossible(int element, double* least) {
   return (sum - (around - shortest)) / corners;
 }
 
-//! Where corners are as near, over the same plane, their mean (with the place, if there is one such corner), if it is so, too.
+//! Where corners are as near, over the same plane, their mean (with the place, if there is one such corner), if it is
+//! so, too.
 MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   Weights mean = {0.0, 0.0, 0.0};
   int count = 0;

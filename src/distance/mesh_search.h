@@ -88,7 +88,7 @@ class MeshSearch {
   std::vector<int> sampled_;           // in which round
   int round_ = 0;
   std::vector<int> last_triangles_;  // that was the nearest to each element; a guess only
-  double known_depth_ = 0.0;  // m, what is not deeper need not be found
+  double known_depth_ = 0.0;         // m, what is not deeper need not be found
 };
 
 }  // namespace distance
