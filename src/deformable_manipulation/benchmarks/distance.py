@@ -46,7 +46,7 @@ GROWTH_COLUMNS = (
     Column("copies", "copies", "d"),
 ) + TIMES
 NOTES = (
-    "a call: all copies at one time, with witness points; the object moves by 1 mm from call to call",
+    "a call: all copies at one time, with witness points; the object moves 1 mm from call to call",
     "minimum: one feature of each copy; features: and all of copy 0 up to 0.1 m farther",
     "this package's distances are signed, those of the libraries are not: 0 where the object "
     "crosses the obstacle, and within it the distance to its surface or 0",
