@@ -108,36 +108,6 @@ struct BoxNode {
   }
 };
 
-//! The plane of a triangle, in single precision.
-class FlatElement {
- public:
-  //! @param normal of any length
-  FlatElement(const Vector3& point, const Vector3& normal) {
-    const double length = normal.norm();
-    normal_ = (length > 0.0 ? Vector3(normal / (length * (1.0 + 1e-6))) : Vector3::Zero()).cast<float>();
-    offset_ = static_cast<float>(normal_.cast<double>().dot(point));
-    size_ = static_cast<float>(point.lpNorm<1>());
-  }
-
-  //! Lower bounds [m^2] of the squared distances between the plane and a node's children.
-  FourFloats squaredDistances(const BoxNode& node) const {
-    FourFloats along = FourFloats{} - offset_, reach = {};
-    for (int k = 0; k < 3; ++k) {
-      along += 0.5F * normal_[k] * (node.low[k] + node.high[k]);
-      reach += 0.5F * std::fabs(normal_[k]) * (node.high[k] - node.low[k]);
-    }
-    const float most = std::max(-*std::min_element(node.box.low.begin(), node.box.low.end()),
-                                *std::max_element(node.box.high.begin(), node.box.high.end()));
-    FourFloats gap = absolute(along) - reach - 2e-6F * (size_ + 3.0F * most);
-    gap = gap > 0.0F ? gap : FourFloats{};  // of a child that is none: NaN, and so 0
-    return gap * gap;
-  }
-
- private:
-  Eigen::Vector3f normal_;
-  float offset_, size_;
-};
-
 //! A tree of boxes with four children a node; node 0 is the root.
 using BoxTree = std::vector<BoxNode>;
 

@@ -30,7 +30,7 @@ struct FloatElement {
   }
 
   Eigen::Vector3f centre;
-  std::array<Eigen::Vector3f, N> arms;  // from the centre to the corners
+  std::array<Eigen::Vector3f, N> arms;               // from the centre to the corners
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit vector of a triangle, or zero
   float radius = 0.0F, rounding;
 };
@@ -69,6 +69,24 @@ class DiscNode {
     return N == 3 ? larger(bounds, squared(overPlane(element.normal, arm) - element.rounding)) : bounds;
   }
 
+  //! A closer lower bound [m^2] for one child that has a disc, otherwise 0. The plane through the element's nearest
+  //! point to the disc's centre, square to the way between them, has the whole element on one side.
+  template <int K>
+  double squaredDistance(int slot, const Corners<K>& element) const {
+    const double radius = radius_[slot];
+    if (!(radius < INFINITY)) {
+      return 0.0;
+    }
+    const Vector3 centre(centre_[0][slot], centre_[1][slot], centre_[2][slot]);
+    const Vector3 normal(normal_[0][slot], normal_[1][slot], normal_[2][slot]);
+    const Vector3 way = centre - nearestOnElement<K>(centre, element);
+    const double squared = way.squaredNorm(), along = normal.dot(way);
+    const double length = std::sqrt(squared);
+    const double sine = std::sqrt(std::max(1.0 - along * along / squared, 0.0) + 1e-9);
+    const double gap = length - radius * sine - half_thickness_[slot];
+    return gap > 0.0 ? gap * gap : 0.0;
+  }
+
  private:
   //! How far the discs are away from an element's plane.
   FourFloats overPlane(const Eigen::Vector3f& normal, const std::array<FourFloats, 3>& arm) const {
@@ -96,8 +114,8 @@ class DiscNode {
     return FourFloats{std::sqrt(of[0]), std::sqrt(of[1]), std::sqrt(of[2]), std::sqrt(of[3])};
   }
 
-  std::array<FourFloats, 3> normal_;  // unit vectors, or zero: a ball
-  std::array<FourFloats, 3> centre_;  // m
+  std::array<FourFloats, 3> normal_;    // unit vectors, or zero: a ball
+  std::array<FourFloats, 3> centre_;    // m
   FourFloats radius_, half_thickness_;  // m
 };
 

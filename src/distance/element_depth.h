@@ -18,9 +18,9 @@ struct DeepPoint {
 //! The deepest point of a segment or triangle in a closed surface, by branch and bound.
 //!
 //! At a sampled point p the depth D(p) and the nearest triangle F are known. Everywhere else the depth is at most the
-//! distance to F, which is convex, where p is inside; where it is outside, at most D(p) + |x - p|, which is convex, too.
-//! On a piece of the element all these functions together give a bound and the point where it is reached (MatrixGame).
-//! That point is sampled next; where the bound does not fall enough the piece is halved.
+//! distance to F, which is convex, where p is inside; where it is outside, at most D(p) + |x - p|, which is convex,
+//! too. On a piece of the element all these functions together give a bound and the point where it is reached
+//! (MatrixGame). That point is sampled next; where the bound does not fall enough the piece is halved.
 class ElementDepth {
  public:
   static constexpr double kTolerance = 1e-7;  // m

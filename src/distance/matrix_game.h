@@ -7,7 +7,8 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Convex functions on a triangle (or segment) by their values at its corners, and the highest that their minimum can be.
+//! Convex functions on a triangle (or segment) by their values at its corners, and the highest that their minimum can
+//! be.
 //!
 //! On the triangle each convex function is at most the linear interpolation of its corner values, and so is the minimum
 //! of all at most the maximum over the triangle of the least interpolation: the value of a matrix game, found by the
@@ -51,9 +52,8 @@ class MatrixGame {
     std::fill_n(tableau[corners_].begin(), functions_, -1.0);
     std::array<int, 3> basis = {functions_, functions_ + 1, functions_ + 2};
     for (int pivots = 0; pivots < kMostPivots; ++pivots) {
-      const int entering =
-          static_cast<int>(std::min_element(tableau[corners_].begin(), tableau[corners_].begin() + columns) -
-                           tableau[corners_].begin());
+      const int entering = static_cast<int>(
+          std::min_element(tableau[corners_].begin(), tableau[corners_].begin() + columns) - tableau[corners_].begin());
       if (tableau[corners_][entering] >= -kOptimal || !pivot(entering, right, &tableau, &basis)) {
         break;
       }

@@ -27,9 +27,10 @@ std::vector<Triangle> edgeNeighbours(const std::vector<Triangle>& triangles, std
 //! Makes of any triangles what has a defined signed distance.
 //!
 //! Equal vertices are one. Triangles without area, and repeated ones, are dropped. A component, the triangles connected
-//! by edges, is closed if each edge has two triangles and all can be wound alike; it is then wound to enclose its volume
-//! from outside, unless it came inside out and lies within another closed one: then it is a cavity of that. Closed
-//! components (with their cavities) whose boxes overlap are different parts; all that are not closed are one part.
+//! by edges, is closed if each edge has two triangles and all can be wound alike; it is then wound to enclose its
+//! volume from outside, unless it came inside out and lies within another closed one: then it is a cavity of that.
+//! Closed components (with their cavities) whose boxes overlap are different parts; all that are not closed are one
+//! part.
 //!
 //! @param problems gets all reasons for which there is no such mesh, and no part is returned
 //! @param warnings gets what was changed or cannot be had

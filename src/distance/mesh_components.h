@@ -11,10 +11,10 @@ namespace distance {
 //! Triangles connected by edges.
 struct MeshComponent {
   std::vector<int> triangles;
-  bool closed = true;      // each edge has two triangles, and all can be wound alike
+  bool closed = true;       // each edge has two triangles, and all can be wound alike
   bool inside_out = false;  // closed and wound alike, but as seen from inside
-  int turned = 0;          // triangles that were wound the other way round
-  double volume = 0.0;     // m^3
+  int turned = 0;           // triangles that were wound the other way round
+  double volume = 0.0;      // m^3
   Box box;
 };
 

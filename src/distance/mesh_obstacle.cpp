@@ -165,8 +165,7 @@ void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& ro
 
 void MeshObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
 
-void MeshObstacle::features(const ObjectView& object, Selection selection, double limit,
-                            std::vector<Feature>* found) {
+void MeshObstacle::features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
   search_->features(object, selection, limit, found);
 }
 

@@ -61,7 +61,8 @@ MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const Mesh
   }
   const bool touches = found.at.squared == 0.0;
   const Vector3 point = weighted<3>(object.corners<3>(place.element), place.weights);
-  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 || pieceInside(object.pieceOf(place.vertices[0]))) {
+  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 ||
+      pieceInside(object.pieceOf(place.vertices[0]))) {
     const MeshPlace deep = deepest(known_depth);
     return deep.known() ? deep : place;
   }
@@ -105,7 +106,7 @@ void MeshSearch::search(int object_root, Nearest* nearest) {
 template <int K>
 void MeshSearch::expand(const Pair& pair, double limit) {
   if (pair.object < 0) {
-    expandSurface(pair, boundsOf<K>(~pair.object, pair.surface), limit);
+    expandSurface(pair, boundsOf<K>(~pair.object, pair.surface, limit), limit);
     return;
   }
   const BoxNode& of_object = object_->tree()[pair.object];
@@ -127,17 +128,23 @@ void MeshSearch::expandSurface(const Pair& pair, const FourFloats& bounds, doubl
   }
 }
 
-//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface.
+//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
+//! above the limit are rough.
 template <int K>
-FourFloats MeshSearch::boundsOf(int element, int node) const {
+FourFloats MeshSearch::boundsOf(int element, int node, double limit) const {
   const Corners<K> corners = object_->corners<K>(element);
   const FourFloats by_boxes = surface_.tree()[node].squaredDistances(object_->boxOf(element));
-  const FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(FloatElement<K>(corners)));
-  if (K == 2) {
-    return bounds;
+  if (!(by_boxes[0] < limit || by_boxes[1] < limit || by_boxes[2] < limit || by_boxes[3] < limit)) {
+    return by_boxes;
   }
-  const FlatElement plane(corners[0], (corners[1] - corners[0]).cross(corners[K - 1] - corners[0]));
-  return larger(bounds, plane.squaredDistances(surface_.tree()[node]));
+  FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(FloatElement<K>(corners)));
+  for (int slot = 0; slot < 4; ++slot) {
+    if (bounds[slot] < limit) {
+      const double closer = surface_.discs(node).squaredDistance<K>(slot, corners);
+      bounds[slot] = std::max(bounds[slot], static_cast<float>(closer) * (1.0F - 1e-6F));
+    }
+  }
+  return bounds;
 }
 
 //! Whether a piece of the object, other than the one known to be outside, has its first point inside.
@@ -218,15 +225,16 @@ MeshPlace MeshSearch::deepestOf(int element, double threshold) {
     samples[k] = cornerSample(object_->element(element)[k], hint);
     hint = samples[k].triangle;
   }
-  const DeepPoint found =
-      depth_.find(object_->corners<3>(element), object_->cornerCount(), samples, threshold);
+  const DeepPoint found = depth_.find(object_->corners<3>(element), object_->cornerCount(), samples, threshold);
   return found.triangle < 0 ? MeshPlace() : placeAt(element, found.weights, -found.depth, found.triangle);
 }
 
 void MeshSearch::elements(const ObjectTree& object, double limit, const MeshPlace& guess,
                           std::vector<MeshPlace>* places) {
+  start(object);
   const bool inside = surface_.closed() && minimum(object, 0.0, guess).distance <= 0.0;
   places->assign(object.size(), MeshPlace());
+  last_triangles_.resize(object.size(), -1);
   const double reach = std::max(limit, 0.0);
   for (int element = 0; element < object.size(); ++element) {
     const FourFloats away = surface_.tree()[0].squaredDistances(object.boxOf(element));
@@ -236,12 +244,25 @@ void MeshSearch::elements(const ObjectTree& object, double limit, const MeshPlac
   }
 }
 
-MeshPlace MeshSearch::outsidePlace(int element, double limit) {
-  const double bound = std::max(limit, 0.0) + kSlack;
+//! The nearest pair of one element, if it is not farther apart than the bound [m].
+MeshSearch::Nearest MeshSearch::nearestOfElement(int element, double bound) {
+  const int last = last_triangles_[element];
+  if (last >= 0) {
+    const Corners<3> corners = object_->corners<3>(element);  // of a segment: without an area
+    ElementNearest at{INFINITY};
+    ElementDistance<3>(corners, surface_.corners(last)).improve(&at);
+    bound = std::min(bound, std::sqrt(at.squared));
+  }
+  bound += kSlack;
   const Nearest found = nearestPair(~element, bound * bound);
+  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last;
+  return found;
+}
+
+MeshPlace MeshSearch::outsidePlace(int element, double limit) {
+  const Nearest found = nearestOfElement(element, std::max(limit, 0.0));
   const MeshPlace place =
-      found.element < 0 ? MeshPlace()
-                        : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+      found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
@@ -252,8 +273,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
   }
   MeshPlace crossing;
   if (least >= 0.0) {
-    const double bound = std::max(std::min(limit, least), 0.0) + kSlack;
-    const Nearest found = nearestPair(~element, bound * bound);
+    const Nearest found = nearestOfElement(element, std::max(std::min(limit, least), 0.0));
     if (found.element < 0) {
       return {};
     }
@@ -269,8 +289,8 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
-//! A lower bound [m] of an element's signed distance. It changes by no more than the way, and the ways from a point of a
-//! triangle to its corners add up to at most its two longer sides.
+//! A lower bound [m] of an element's signed distance. It changes by no more than the way, and the ways from a point of
+//! a triangle to its corners add up to at most its two longer sides.
 //! @param least gets that of its corners
 double MeshSearch::lowestPossible(int element, double* least) {
   const Triangle& vertices = object_->element(element);
@@ -290,12 +310,15 @@ double MeshSearch::lowestPossible(int element, double* least) {
   return (sum - (around - shortest)) / corners;
 }
 
-//! Where corners are as near, their mean (with the place, if there is one such corner), if it is so, too.
+//! Where corners are as near, over the same plane, their mean (with the place, if there is one such corner), if it is
+//! so, too.
 MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   Weights mean = {0.0, 0.0, 0.0};
   int count = 0;
   for (int k = 0; k < object_->cornerCount(); ++k) {
-    if (cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kLevel) {
+    const Vector3& corner = object_->point(place.vertices[k]);
+    if (surface_.distanceToPlane(place.triangle, corner) <= std::fabs(place.distance) + kLevel &&
+        cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kLevel) {
       mean[k] += 1.0;
       ++count;
     }

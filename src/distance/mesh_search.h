@@ -67,13 +67,14 @@ class MeshSearch {
   void expand(const Pair& pair, double limit);
   void expandSurface(const Pair& pair, const FourFloats& bounds, double limit);
   template <int K>
-  FourFloats boundsOf(int element, int node) const;
+  FourFloats boundsOf(int element, int node, double limit) const;
 
   bool pieceInside(int certified_piece);
   MeshPlace deepest(double known_depth);
   void descend(int child, MeshPlace* best);
   double depthBound(int child, const Box& box);
   MeshPlace deepestOf(int element, double threshold);
+  Nearest nearestOfElement(int element, double bound);
   MeshPlace outsidePlace(int element, double limit);
   MeshPlace elementPlace(int element, double limit);
   double lowestPossible(int element, double* least);
@@ -86,7 +87,8 @@ class MeshSearch {
   std::vector<SurfacePoint> samples_;  // of the object's points
   std::vector<int> sampled_;           // in which round
   int round_ = 0;
-  double known_depth_ = 0.0;  // m, what is not deeper need not be found
+  std::vector<int> last_triangles_;  // that was the nearest to each element; a guess only
+  double known_depth_ = 0.0;         // m, what is not deeper need not be found
 };
 
 }  // namespace distance

@@ -49,6 +49,11 @@ class MeshSurface {
     return std::sqrt(nearestOnTriangle(point, corners(triangle)).squared);
   }
 
+  //! The distance [m] of a point to the plane of one of the triangles.
+  double distanceToPlane(int triangle, const Vector3& point) const {
+    return std::fabs(unitNormal(triangle).dot(point - corners(triangle)[0]));
+  }
+
   Vector3 position(const SurfacePoint& place) const { return weighted<3>(corners(place.triangle), place.weights); }
 
   //! The outward normal (of any length) with whose side of the surface every point is that has its nearest point here:

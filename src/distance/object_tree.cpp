@@ -54,8 +54,8 @@ bool ObjectTree::same(const ObjectView& object) const {
   if (object.point_count + 1 != static_cast<int>(first_of_.size()) || surface_ != (object.triangles != nullptr)) {
     return false;
   }
-  return !surface_ || (object.triangle_count == size() &&
-                       std::equal(elements_.begin(), elements_.end(), object.triangles));
+  return !surface_ ||
+         (object.triangle_count == size() && std::equal(elements_.begin(), elements_.end(), object.triangles));
 }
 
 void ObjectTree::listElementsOfPoints(int points) {

@@ -13,7 +13,7 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kOnBoundary = 1e-9;     // m, distance below which the direction to the boundary is rounding
+constexpr double kOnBoundary = 1e-9;  // m, distance below which the direction to the boundary is rounding
 constexpr const char* kAxisNames = "xyz";
 
 //! The axes of a plane, two different letters in their order.

@@ -67,6 +67,19 @@ inline NearestOnTriangle nearestOnTriangle(const Vector3& p, const Corners<3>& t
   return at(va / sum, vb / sum, vc / sum);
 }
 
+//! The nearest point of a segment or triangle to another point.
+template <int K>
+Vector3 nearestOnElement(const Vector3& point, const Corners<K>& element) {
+  if (K == 3) {
+    const Corners<3> triangle = {element[0], element[1], element[K - 1]};
+    return weighted<3>(triangle, nearestOnTriangle(point, triangle).weights);
+  }
+  const Vector3 along = element[1] - element[0];
+  const double squared = along.squaredNorm();
+  const double parameter = squared > 0.0 ? (point - element[0]).dot(along) / squared : 0.0;
+  return element[0] + std::min(std::max(parameter, 0.0), 1.0) * along;
+}
+
 //! Parameters in [0, 1] of the nearest points of two segments.
 struct NearestOfSegments {
   double squared;  //!< [m^2]

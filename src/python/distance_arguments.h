@@ -35,7 +35,9 @@ void bindPose(Class* obstacle) {
   obstacle->def(
       "set_pose",
       [](Type& moved, const Vector3& translation, const std::array<double, 4>& rotation, const Vector3& linear,
-         const Vector3& angular) { moved.setPose(translation, toQuaternion(rotation), Twist{linear, angular}); },
+         const Vector3& angular) {
+        moved.setPose(translation, toQuaternion(rotation), Twist{linear, angular});
+      },
       py::arg("translation"), py::arg("rotation"), py::arg("linear_velocity") = Vector3::Zero().eval(),
       py::arg("angular_velocity") = Vector3::Zero().eval(),
       "Moves the obstacle. The velocities [m/s, rad/s] are those of its origin and about it, in the fixed frame.\n"

@@ -57,13 +57,13 @@ py::array_t<double> vectors(const Distances& distances, Vector3 Feature::*member
 }
 
 py::tuple toTuple(const Distances& d) {
-  return py::make_tuple(
-      py::array_t<double>(static_cast<py::ssize_t>(d.minimum.size()), d.minimum.data()),
-      py::array_t<int>(static_cast<py::ssize_t>(d.offsets.size()), d.offsets.data()), column(d, &Feature::distance),
-      column(d, &Feature::obstacle), vectors(d, &Feature::object_point), vectors(d, &Feature::obstacle_point),
-      vectors(d, &Feature::normal), rows<int>(d, [](const Feature& f) { return f.vertices.data(); }),
-      rows<double>(d, [](const Feature& f) { return f.weights.data(); }), vectors(d, &Feature::obstacle_velocity),
-      column(d, &Feature::identity));
+  return py::make_tuple(py::array_t<double>(static_cast<py::ssize_t>(d.minimum.size()), d.minimum.data()),
+                        py::array_t<int>(static_cast<py::ssize_t>(d.offsets.size()), d.offsets.data()),
+                        column(d, &Feature::distance), column(d, &Feature::obstacle),
+                        vectors(d, &Feature::object_point), vectors(d, &Feature::obstacle_point),
+                        vectors(d, &Feature::normal), rows<int>(d, [](const Feature& f) { return f.vertices.data(); }),
+                        rows<double>(d, [](const Feature& f) { return f.weights.data(); }),
+                        vectors(d, &Feature::obstacle_velocity), column(d, &Feature::identity));
 }
 
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {

@@ -40,7 +40,8 @@ void bindMeshObstacle(py::module_& module) {
   mesh.def(py::init([](const Points& vertices, const py::object& triangles, const Vector3& translation,
                        const std::array<double, 4>& rotation) {
              const std::vector<Vector3> corners = toVertices(vertices);
-             const Triangles faces = toTriangles(triangles, static_cast<py::ssize_t>(corners.size()), "vertex", "vertices");
+             const Triangles faces =
+                 toTriangles(triangles, static_cast<py::ssize_t>(corners.size()), "vertex", "vertices");
              return std::make_shared<MeshObstacle>(corners, faces, translation, toQuaternion(rotation));
            }),
            py::arg("vertices"), py::arg("triangles"), py::arg("translation") = Vector3::Zero().eval(),

@@ -93,7 +93,8 @@ TEST(MeshDistance, followsThePose) {
   MinimumDistance distance({obstacle}, 0.0, 0.0, Selection::ELEMENTS);
   const Fabric fabric(1, 1.5);
   for (double height : {0.0, 0.1, -4.0, 0.3}) {
-    obstacle->setPose(Vector3(0.0, 0.0, height), pbd::Quaternion::Identity(), {Vector3(0.0, 0.0, 2.0), Vector3::Zero()});
+    obstacle->setPose(Vector3(0.0, 0.0, height), pbd::Quaternion::Identity(),
+                      {Vector3(0.0, 0.0, 2.0), Vector3::Zero()});
     const Distances& result = distance.compute(fabric.view(1));
     EXPECT_NEAR(result.minimum[0], 0.5 - height, 1e-9);
     EXPECT_EQ(result.features[0].obstacle_velocity, Vector3(0.0, 0.0, 2.0));

@@ -78,9 +78,8 @@ def _fault(vertices: np.ndarray, triangles: np.ndarray) -> str:
     outside = ~(np.abs(vertices) <= LARGEST_COORDINATE).all(axis=1)
     if outside.any():
         index = int(np.argmax(outside))
-        return "vertex {} is ({:g}, {:g}, {:g}); coordinates must be finite and at most {:g}".format(
-            index, *vertices[index], LARGEST_COORDINATE
-        )
+        text = "vertex {} is ({:g}, {:g}, {:g}); coordinates must be finite and at most {:g}"
+        return text.format(index, *vertices[index], LARGEST_COORDINATE)
     if triangles.min() < 0 or triangles.max() >= len(vertices):
         return "a triangle refers to a vertex that there is not"
     return ""
@@ -100,7 +99,9 @@ def _merged(vertices: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np
 
 def _distinct(rows: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
     """First index of each distinct row, and which of them each row is."""
-    factors = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+    factors = np.array(
+        [0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64
+    )
     bits = np.ascontiguousarray(rows).view(np.uint64)
     mixed = (bits ^ (bits >> np.uint64(31))) * factors
     keys = np.bitwise_xor.reduce(mixed ^ (mixed >> np.uint64(29)), axis=1)

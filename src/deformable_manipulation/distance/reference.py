@@ -26,7 +26,7 @@ class ReferenceMinimumDistance:
 
     Outside, distances are those of FCL (meshes) and Shapely (polygons). An element that reaches
     inside has minus the depth of the deepest of some points on it, so depths are too small by up to
-    an eighth of its longest side. Meshes that Trimesh does not call watertight have no sign; several
+    an eighth of its longest side. Meshes that Trimesh does not call watertight have no sign; the
     components of a mesh are taken as one surface. With ``features="local"`` there is the nearest
     feature of each obstacle alone.
 

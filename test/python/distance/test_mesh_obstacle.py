@@ -102,6 +102,20 @@ def test_an_open_mesh_has_no_sign_anywhere():
         assert minimum(lidless, [point, point + 1e-6]) >= 0.0
 
 
+def test_features_beside_an_open_mesh_are_those_of_the_object_itself():
+    vertices, triangles = cube()
+    lidless = (vertices, triangles[:10])
+    sheet = np.array([(x, y, 1.2) for x in (0.1, 0.5, 0.9) for y in (0.1, 0.5, 0.9)])
+    copies = sheet + np.array([0.0, 0.3, -0.5])[:, None, None] * [0.3, 0.2, 1.0]
+    together = compute(lidless, copies, grid_triangles(2))
+    alone = compute(lidless, sheet, grid_triangles(2))
+    for name in reference.FIELDS[2:]:
+        own = together[name][: together["offsets"][1]]
+        np.testing.assert_array_equal(own, alone[name], err_msg=name)
+    expected = reference.unsigned_distances(lidless, alone["object_point"])
+    assert alone["distance"] == pytest.approx(expected, abs=1e-12)
+
+
 def test_a_moebius_strip_has_no_sign():
     angles = np.linspace(0.0, 2.0 * np.pi, 20, endpoint=False)
     rows = []

@@ -90,6 +90,7 @@ class BagWriter:
                 ("obstacle_points", float),
                 ("normals", float),
                 ("obstacle_velocities", float),
+                ("feature_identities", np.int64),
                 ("feature_vertices", np.uint32),
                 ("feature_weights", float),
             )
