@@ -22,7 +22,7 @@ namespace {
 constexpr int kSubstepsAtOnce = 16;
 
 //! 1/s. Rest lengths adapt slowly, for they must not feed energy into vibrations faster than damping takes it away.
-double adaptationRate(double damping) { return std::min(2.0, 0.2 * damping); }
+double adaptationRate(double damping) { return std::min(1.0, 0.1 * damping); }
 
 FabricParameters checked(const FabricParameters& parameters) {
   ParameterCheck check;

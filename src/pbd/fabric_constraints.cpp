@@ -117,7 +117,7 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
     const double w1 = mobility(at[1]);
     const double compliance = stretching_compliance * rest_[i].length_share * per_h2;
     const double s = stiffnessInNet(w0 + w1, compliance);
-    stretch.yield = s * std::max(compliance, kLeastCompliance * (w0 + w1));
+    stretch.yield = s > 0.0 ? s * std::max(compliance, kLeastCompliance * (w0 + w1)) : 1.0;
     stretch.gain[0] = s * w0;
     stretch.gain[1] = -s * w1;
     spring_[i] = s * per_h2;

@@ -23,8 +23,8 @@ CASE_NAMES = (
     "wrenches",
     "fabrics",
 )
-DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory: shapes,
-reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
+DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory:
+shapes, reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
 EPILOG = """examples:
   validate                               docs/validation.md, some minutes
   validate --quick                       fewer segments, less than a minute
