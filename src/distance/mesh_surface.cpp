@@ -102,6 +102,9 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint) const {
       stack.push(near.bound(i), near.child(i));
     }
   }
+  if (found.triangle < 0 && hint >= 0) {  // rounding, where the hint is as near as can be
+    return nearest(point);
+  }
   found.distance = std::sqrt(least);
   if (closed_ && pseudonormal(found).dot(point - position(found)) < 0.0) {
     found.distance = -found.distance;

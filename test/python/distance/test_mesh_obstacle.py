@@ -182,6 +182,18 @@ def test_large_and_small_coordinates(shift, size):
     assert minimum(mesh, line) == pytest.approx(-0.1 * size, abs=2e-7, rel=1e-9)
 
 
+@pytest.mark.parametrize("direction", [(1, 0, 0), (1, -2, 3), (0.3, 0.4, -5)])
+def test_far_away(direction):
+    mesh = reference.star(np.random.default_rng(7), 30, 40)
+    away = 3e5 * np.array(direction) / np.linalg.norm(direction)
+    points = away + np.array([(0, 0, 0), (0.3, 0.1, 0), (0, 0.5, 0.2)])
+    result = compute(mesh, points, ONE)
+    expected = reference.unsigned_distances(mesh, points).min()
+    assert result["minimum"][0] <= expected + 1e-9
+    at = reference.unsigned_distances(mesh, result["object_point"])
+    assert result["distance"] == pytest.approx(at, abs=1e-9)
+
+
 def test_a_level_triangle_is_represented_by_its_middle():
     corners = np.array([(0.2, 0.2, 1.1), (0.8, 0.2, 1.1), (0.5, 0.8, 1.1)])
     assert compute(cube(), corners, ONE)["weights"] == pytest.approx(np.full((1, 3), 1 / 3))
