@@ -57,7 +57,7 @@ class SnapshotPlot:
         across, up = (AXES[axis] for axis in self._plane)
         self._axes.set_xlabel(f"{across} [m]")
         self._axes.set_ylabel(f"{up} [m]")
-        self._axes.set_aspect("equal")
+        self._axes.set_aspect("equal", adjustable="datalim")
         self._limit(times)
 
     def _draw_frame(self, frame: int, colour: str) -> None:
