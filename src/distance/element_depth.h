@@ -23,7 +23,7 @@ struct DeepPoint {
 //! (MatrixGame). That point is sampled next; where the bound does not fall enough the piece is halved.
 class ElementDepth {
  public:
-  static constexpr double kTolerance = 1e-7;  // m
+  static constexpr double kTolerance = 1e-6;  // m
   static constexpr int kMostSamples = 400;    // of one element
 
   explicit ElementDepth(const MeshSurface& surface) : surface_(surface) {}
@@ -51,6 +51,7 @@ class ElementDepth {
     std::size_t cuts;  // that are in the solution
   };
 
+  void cut(const Vector3& point, double depth, int triangle);
   void sample(const Vector3& point, const Weights& weights, const SurfacePoint& at);
   double value(const Cut& cut, const Vector3& point) const;
   void solve(Piece* piece) const;
@@ -62,6 +63,7 @@ class ElementDepth {
   const MeshSurface& surface_;
   int count_ = 3;
   int samples_ = 0;
+  double threshold_ = 0.0;
   DeepPoint best_;
   std::vector<Cut> cuts_;
   std::vector<Piece> pieces_;  // a heap, the highest bound first
