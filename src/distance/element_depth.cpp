@@ -30,7 +30,7 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
     if (pieces_.front().solution.bound <= threshold) {
       return {};
     }
-    if (gap_ <= 0.5 * kTolerance || samples_ >= kMostSamples) {
+    if (gap_ <= 0.5 * tolerance(best_.depth) || samples_ >= kMostSamples) {
       break;
     }
     refine(pop());

@@ -7,7 +7,6 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kMargin = 0.5 * ElementDepth::kTolerance;  // that a deeper point must be deeper to be looked for
 constexpr double kSlack = 1e-9;  // m, of bounds that earlier results give: far more than rounding
 constexpr double kLevel = 1e-9;  // m, differences of distance below it count as none
 
@@ -171,7 +170,7 @@ MeshPlace MeshSearch::deepest(double least_depth) {
 
 //! @param child a node, or a leaf as ~index
 void MeshSearch::descend(int child, MeshPlace* best) {
-  const auto threshold = [best] { return kMargin - best->distance; };
+  const auto threshold = [best] { return 0.5 * ElementDepth::tolerance(-best->distance) - best->distance; };
   if (child < 0) {
     const MeshPlace place = deepestOf(~child, threshold());
     if (place.distance < best->distance) {
@@ -292,7 +291,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
       return crossing.distance <= limit ? middleOfLevel(crossing) : MeshPlace();
     }
   }
-  MeshPlace place = deepestOf(element, -limit - kSlack - ElementDepth::kTolerance);
+  MeshPlace place = deepestOf(element, -limit - kSlack - ElementDepth::tolerance(-limit));
   if (place.distance > crossing.distance) {
     place = crossing;
   }
