@@ -64,7 +64,8 @@ def test_every_piece_of_the_object_counts():
     near = np.array([(0.2, 0.2, 1.01), (0.8, 0.2, 1.01), (0.5, 0.8, 1.01)])
     deep = np.array([(0.4, 0.4, 0.5), (0.6, 0.4, 0.5), (0.5, 0.6, 0.5)])
     both = np.concatenate((near, deep))
-    assert minimum(cube(), both, np.array([[0, 1, 2], [3, 4, 5]])) == pytest.approx(-0.5, abs=1.1e-5)
+    two = np.array([[0, 1, 2], [3, 4, 5]])
+    assert minimum(cube(), both, two) == pytest.approx(-0.5, abs=1.1e-5)
     assert minimum(cube(), both, ONE) == pytest.approx(0.01, abs=1e-12)
 
 
