@@ -14,6 +14,7 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
   best_ = DeepPoint();
   cuts_.clear();
   samples_ = 0;
+  threshold_ = threshold;
   pieces_.clear();
   Piece whole;
   whole.corners = corners;
@@ -29,7 +30,7 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
     if (pieces_.front().solution.bound <= threshold) {
       return {};
     }
-    if (gap_ <= kTolerance || samples_ >= kMostSamples) {
+    if (gap_ <= 0.5 * tolerance(best_.depth) || samples_ >= kMostSamples) {
       break;
     }
     refine(pop());
@@ -39,14 +40,20 @@ DeepPoint ElementDepth::find(const Corners<3>& corners, int count, const std::ar
 
 void ElementDepth::sample(const Vector3& point, const Weights& weights, const SurfacePoint& at) {
   const double depth = -at.distance;
-  const int triangle = depth > 0.0 ? at.triangle : -1;
-  const auto same = [triangle](const Cut& cut) { return cut.triangle == triangle; };
-  if (triangle < 0 || std::none_of(cuts_.begin(), cuts_.end(), same)) {
-    cuts_.push_back({point, depth, triangle});
+  cut(point, depth, at.triangle);
+  if (depth <= 0.0) {
+    cut(point, depth, -1);
   }
   ++samples_;
   if (depth > best_.depth) {
     best_ = {depth, at.triangle, weights};
+  }
+}
+
+void ElementDepth::cut(const Vector3& point, double depth, int triangle) {
+  const auto same = [triangle](const Cut& cut) { return cut.triangle == triangle; };
+  if (triangle < 0 || std::none_of(cuts_.begin(), cuts_.end(), same)) {
+    cuts_.push_back({point, depth, triangle});
   }
 }
 
@@ -119,8 +126,15 @@ void ElementDepth::refine(Piece piece) {
       weights[i] += share * piece.weights[k][i];
     }
   }
-  const SurfacePoint there = surface_.nearest(point, best_.triangle);
-  sample(point, weights, there);
+  // What is not deeper than what is known need not be known better: a triangle that near bounds the depth there.
+  const double enough = std::max(best_.depth, threshold_);
+  const SurfacePoint there = surface_.nearest(point, -1, enough);
+  if (std::fabs(there.distance) <= enough) {
+    cut(point, std::fabs(there.distance), there.triangle);
+    ++samples_;
+  } else {
+    sample(point, weights, there);
+  }
   const double wanted = before - kEnough * (before - std::max(-there.distance, best_.depth));
   solve(&piece);
   piece.solution.bound = std::min(piece.solution.bound, before);

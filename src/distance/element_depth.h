@@ -23,19 +23,21 @@ struct DeepPoint {
 //! (MatrixGame). That point is sampled next; where the bound does not fall enough the piece is halved.
 class ElementDepth {
  public:
-  static constexpr double kTolerance = 1e-7;  // m
-  static constexpr int kMostSamples = 400;    // of one element
+  //! [m] Accuracy of a depth [m]: a thousandth of it and 1e-7 m, at most 1e-5 m.
+  static double tolerance(double depth) { return std::min(1e-7 + 1e-3 * std::max(depth, 0.0), 1e-5); }
+
+  static constexpr int kMostSamples = 400;  // of one element
 
   explicit ElementDepth(const MeshSurface& surface) : surface_(surface) {}
 
   //! @param count of corners: 2 or 3
   //! @param samples [count] of the surface, for the corners
   //! @param threshold [m] what is not deeper than this need not be found
-  //! @return its depth is at most kTolerance less than the greatest one; -infinity if that is not above the threshold.
+  //! @return its depth is at most tolerance() less than the greatest one; -infinity if that is not above the threshold.
   //! Whether the search ends below the threshold has no influence on what is found otherwise.
   DeepPoint find(const Corners<3>& corners, int count, const std::array<SurfacePoint, 3>& samples, double threshold);
 
-  //! Highest bound [m] less the depth that was found last: above kTolerance only where kMostSamples were not enough.
+  //! Highest bound [m] less the depth that was found last: above tolerance() only where kMostSamples were not enough.
   double gap() const { return gap_; }
 
  private:
@@ -51,6 +53,7 @@ class ElementDepth {
     std::size_t cuts;  // that are in the solution
   };
 
+  void cut(const Vector3& point, double depth, int triangle);
   void sample(const Vector3& point, const Weights& weights, const SurfacePoint& at);
   double value(const Cut& cut, const Vector3& point) const;
   void solve(Piece* piece) const;
@@ -62,6 +65,7 @@ class ElementDepth {
   const MeshSurface& surface_;
   int count_ = 3;
   int samples_ = 0;
+  double threshold_ = 0.0;
   DeepPoint best_;
   std::vector<Cut> cuts_;
   std::vector<Piece> pieces_;  // a heap, the highest bound first

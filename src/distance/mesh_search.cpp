@@ -37,19 +37,19 @@ MeshPlace MeshSearch::placeAt(int element, const Weights& weights, double distan
 
 MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const MeshPlace& guess) {
   start(object);
+  const double known_depth = std::max(0.0, -bound);
   double upper = bound;
   if (guess.known()) {
     const Vector3 point = weighted<3>(object.corners<3>(guess.element), guess.weights);
     const SurfacePoint there = surface_.nearest(point, guess.triangle);
     if (there.distance < 0.0) {
-      const MeshPlace deep = deepest(std::max(-there.distance, -bound));
-      if (deep.known() || -bound > -there.distance) {
+      const MeshPlace deep = deepest(known_depth);
+      if (deep.known() || known_depth > 0.0) {
         return deep;
       }
     }
     upper = std::min(upper, there.distance);
   }
-  const double known_depth = std::max(0.0, -bound);
   upper = std::max(upper, 0.0) + kSlack;
   const Nearest found = nearestPair(0, upper * upper);
   if (found.element < 0) {
@@ -160,18 +160,17 @@ bool MeshSearch::pieceInside(int certified_piece) {
   return false;
 }
 
-//! @param known_depth [m] that the deepest point has at least
-MeshPlace MeshSearch::deepest(double known_depth) {
+//! @param least_depth [m] what is not deeper need not be found
+MeshPlace MeshSearch::deepest(double least_depth) {
   MeshPlace best;
-  best.distance = 0.0;
-  known_depth_ = known_depth - kSlack - ElementDepth::kTolerance;
+  best.distance = -least_depth;
   descend(0, &best);
   return best.known() ? best : MeshPlace();
 }
 
 //! @param child a node, or a leaf as ~index
 void MeshSearch::descend(int child, MeshPlace* best) {
-  const auto threshold = [&] { return std::max(known_depth_, -best->distance); };
+  const auto threshold = [best] { return 0.5 * ElementDepth::tolerance(-best->distance) - best->distance; };
   if (child < 0) {
     const MeshPlace place = deepestOf(~child, threshold());
     if (place.distance < best->distance) {
@@ -184,7 +183,7 @@ void MeshSearch::descend(int child, MeshPlace* best) {
   int count = 0;
   for (int slot = 0; slot < 4; ++slot) {
     if (node.children[slot] != BoxNode::kNone) {
-      const double bound = depthBound(node.children[slot], node.childBox(slot));
+      const double bound = depthBound(node.children[slot], node.childBox(slot), best);
       int at = count++;
       for (; at > 0 && candidates[at - 1].depth < bound; --at) {
         candidates[at] = candidates[at - 1];
@@ -199,10 +198,12 @@ void MeshSearch::descend(int child, MeshPlace* best) {
 
 //! How deep [m] a child's point can be at most: the depth changes by no more than the way, and inside it is at most the
 //! distance to any triangle, which is convex.
-double MeshSearch::depthBound(int child, const Box& box) {
+double MeshSearch::depthBound(int child, const Box& box, MeshPlace* best) {
   const int representative = object_->representative(child);
   const SurfacePoint& there = cornerSample(representative, -1);
-  known_depth_ = std::max(known_depth_, -there.distance - kSlack - ElementDepth::kTolerance);
+  if (there.distance < best->distance) {
+    *best = placeOfPoint(representative, there);
+  }
   const Vector3& point = object_->point(representative);
   const Vector3 middle = box.middle(), half = box.halfSides();
   double way = 0.0, farthest = 0.0;
@@ -216,6 +217,14 @@ double MeshSearch::depthBound(int child, const Box& box) {
   }
   const double by_way = std::sqrt(way) - there.distance;
   return there.distance < 0.0 ? std::min(by_way, farthest) : by_way;
+}
+
+MeshPlace MeshSearch::placeOfPoint(int point, const SurfacePoint& there) const {
+  const int element = object_->elementOf(object_->firstOf(point));
+  Weights weights = {0.0, 0.0, 0.0};
+  const Triangle& vertices = object_->element(element);
+  weights[std::find(vertices.begin(), vertices.end(), point) - vertices.begin()] = 1.0;
+  return placeAt(element, weights, there.distance, there.triangle);
 }
 
 MeshPlace MeshSearch::deepestOf(int element, double threshold) {
@@ -282,7 +291,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
       return crossing.distance <= limit ? middleOfLevel(crossing) : MeshPlace();
     }
   }
-  MeshPlace place = deepestOf(element, -limit - kSlack - ElementDepth::kTolerance);
+  MeshPlace place = deepestOf(element, -limit - kSlack - ElementDepth::tolerance(-limit));
   if (place.distance > crossing.distance) {
     place = crossing;
   }

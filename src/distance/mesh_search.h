@@ -72,7 +72,8 @@ class MeshSearch {
   bool pieceInside(int certified_piece);
   MeshPlace deepest(double known_depth);
   void descend(int child, MeshPlace* best);
-  double depthBound(int child, const Box& box);
+  double depthBound(int child, const Box& box, MeshPlace* best);
+  MeshPlace placeOfPoint(int point, const SurfacePoint& there) const;
   MeshPlace deepestOf(int element, double threshold);
   Nearest nearestOfElement(int element, double bound);
   MeshPlace outsidePlace(int element, double limit);
@@ -88,7 +89,6 @@ class MeshSearch {
   std::vector<int> sampled_;           // in which round
   int round_ = 0;
   std::vector<int> last_triangles_;  // that was the nearest to each element; a guess only
-  double known_depth_ = 0.0;         // m, what is not deeper need not be found
 };
 
 }  // namespace distance

@@ -67,7 +67,7 @@ void MeshSurface::sumCornerNormals() {
   }
 }
 
-SurfacePoint MeshSurface::nearest(const Vector3& point, int hint) const {
+SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough) const {
   SurfacePoint found;
   double least = INFINITY;
   if (hint >= 0) {  // a bound only, so that what is found does not depend on it
@@ -86,7 +86,8 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint) const {
   const FloatElement<1> element({point});
   SearchStack<int> stack;
   stack.push(0.0F, 0);
-  while (!stack.empty()) {
+  const double squared_enough = enough > 0.0 ? enough * enough : -1.0;
+  while (!stack.empty() && !(found.triangle >= 0 && least <= squared_enough)) {
     const SearchStack<int>::Entry entry = stack.pop();
     if (entry.bound >= least) {
       continue;

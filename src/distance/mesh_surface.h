@@ -42,7 +42,8 @@ class MeshSurface {
   }
 
   //! @param hint a triangle probably near, or -1; for speed only
-  SurfacePoint nearest(const Vector3& point, int hint = -1) const;
+  //! @param enough [m] a place not farther than this will do, though it may not be the nearest
+  SurfacePoint nearest(const Vector3& point, int hint = -1, double enough = -1.0) const;
 
   //! The distance [m] of a point to one of the triangles.
   double distanceTo(int triangle, const Vector3& point) const {

@@ -19,10 +19,10 @@ namespace distance {
 //! the depth is that in one of them, not in their union. A solid that crosses itself has the sign of the piece of its
 //! surface that is nearest. Components that are not closed have distances without a sign, 0 where the object crosses.
 //!
-//! Distances are exact to rounding outside. Depths inside are the greatest to within 1e-7 m; the witness found always
-//! has the distance told. Normals point from the obstacle to the object, inside from the object to the nearest point of
-//! the surface; within 1e-9 m of the surface they are its outward normal (of a surface that is not closed, that of the
-//! triangle).
+//! Distances are exact to rounding outside. Depths inside are the greatest to within a thousandth and 1e-7 m, at most
+//! 1e-5 m; the witness found always has the distance told. Normals point from the obstacle to the object, inside from
+//! the object to the nearest point of the surface; within 1e-9 m of the surface they are its outward normal (of a
+//! surface that is not closed, that of the triangle).
 //!
 //! Features:
 //! - Selection::ELEMENTS: the nearest, or deepest, point of each segment or triangle. Where corners of it are as near
