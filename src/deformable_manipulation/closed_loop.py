@@ -126,8 +126,4 @@ def make_minimum_distance(scenario: Scenario):
         from deformable_manipulation.distance.reference import ReferenceMinimumDistance
 
         backend = ReferenceMinimumDistance
-    if body.type == "fabric":
-        margin, triangles = 0.5 * body.thickness, body.triangles
-    else:
-        margin, triangles = body.radius, None
-    return backend(scenario.obstacles, margin, collision.band, "elements", triangles)
+    return backend(scenario.obstacles, body.margin, collision.band, "elements", body.triangles)

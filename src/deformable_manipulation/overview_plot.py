@@ -12,7 +12,9 @@ from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunData
 from deformable_manipulation.snapshot_plot import COLOURS, SnapshotPlot
 
-_VIEW_HEIGHT, _PANEL_HEIGHT = 2.6, 0.9  # in
+_VIEW_WIDTH, _PANEL_HEIGHT = 2.9, 0.9  # in
+_VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
+_AROUND = 0.6  # in, titles and labels
 _STYLES = ("-", "--", "-.", ":")
 _SNAPSHOTS = 4
 
@@ -31,12 +33,13 @@ def plot_overview(
     chosen = sorted(times) if times else snapshot_times(run)
     with rc_context(STYLE):
         figure = figure if figure is not None else Figure()
-        figure.set_size_inches(COLUMN_WIDTH, _VIEW_HEIGHT + 3 * _PANEL_HEIGHT)
         figure.set_layout_engine("constrained", h_pad=0.02, w_pad=0.02)
-        view, distance, error, margin = figure.subplots(
-            4, 1, height_ratios=(_VIEW_HEIGHT, *(3 * (_PANEL_HEIGHT,)))
-        )
-        SnapshotPlot(frames, view).draw(chosen)
+        view, distance, error, margin = figure.subplots(4, 1)
+        snapshots = SnapshotPlot(frames, view)
+        height = float(np.clip(_VIEW_WIDTH * snapshots.height_per_width(chosen), *_VIEW_HEIGHTS))
+        view.get_gridspec().set_height_ratios((height, *(3 * (_PANEL_HEIGHT,))))
+        figure.set_size_inches(COLUMN_WIDTH, height + 3 * _PANEL_HEIGHT + _AROUND)
+        snapshots.draw(chosen)
         _plot_distance(distance, run)
         _plot_errors(error, run)
         _plot_margins(margin, run)

@@ -57,8 +57,15 @@ class SnapshotPlot:
         across, up = (AXES[axis] for axis in self._plane)
         self._axes.set_xlabel(f"{across} [m]")
         self._axes.set_ylabel(f"{up} [m]")
-        self._axes.set_aspect("equal", adjustable="datalim")
-        self._limit(times)
+        self._axes.set_aspect("equal")
+        low, high = self._limits(times)
+        self._axes.set_xlim(low[0], high[0])
+        self._axes.set_ylim(low[1], high[1])
+
+    def height_per_width(self, times: Sequence[float]) -> float:
+        """The proportion of what is seen when drawn at these times."""
+        low, high = self._limits(times)
+        return (high[1] - low[1]) / (high[0] - low[0])
 
     def _draw_frame(self, frame: int, colour: str) -> None:
         points = self._frames.points[frame][:, self._plane]
@@ -112,14 +119,14 @@ class SnapshotPlot:
         corners = placed_mesh(obstacle)[..., self._plane]
         self._axes.add_collection(PolyCollection(corners, facecolor=GROUND, edgecolor="none"))
 
-    def _limit(self, times: Sequence[float]) -> None:
+    def _limits(self, times: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
+        """Lower and upper limits (2,) [m] of the view."""
         shown = [self._frames.agents.reshape(-1, 3)[:, self._plane]]
         shown += [self._frames.points[self._frames.at(time)][:, self._plane] for time in times]
         shown = np.concatenate(shown)
         low, high = shown.min(axis=0) - _MARGIN, shown.max(axis=0) + _MARGIN
-        nearest = self._frames.points[:, :, self._plane[1]].min()
-        self._axes.set_xlim(low[0], high[0])
-        self._axes.set_ylim(min(low[1], nearest - 2.0 * _MARGIN), high[1])
+        lowest = self._frames.points[:, :, self._plane[1]].min()
+        return np.array([low[0], min(low[1], lowest - 2.0 * _MARGIN)]), high
 
 
 def boundary_edges(faces: np.ndarray) -> np.ndarray:

@@ -100,8 +100,12 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
     note(*interior[i]);
   }
   for (int i : independentOrder(boundary_vertices, count)) {
-    boundaries_.push_back(
-        {{boundary[i]->length, {}}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
+    BoundaryConstraint constraint{};
+    constraint.stretch.rest_length = boundary[i]->length;
+    for (int k = 0; k < 2; ++k) {
+      constraint.at[k] = place(boundary_vertices[i][k]);
+    }
+    boundaries_.push_back(constraint);
     note(*boundary[i]);
   }
   spring_.resize(rest_.size());

@@ -82,7 +82,7 @@ py::tuple compute(MinimumDistance& distance, const Points& points, const py::obj
   object.points = points.data();
   object.copies = static_cast<int>(points.shape(0));
   object.point_count = static_cast<int>(points.shape(1));
-  Triangles faces;
+  std::vector<std::array<int, 3>> faces;
   if (!triangles.is_none()) {
     faces = toTriangles(triangles, points.shape(1), "point", "points");
     object.triangles = faces.data();

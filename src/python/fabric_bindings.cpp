@@ -27,7 +27,7 @@ std::unique_ptr<Fabric> makeFabric(const Points& vertices, const py::object& tri
                                    const Vector4& orientation) {
   FabricParameters p;
   p.vertices = toVertices(vertices);
-  p.triangles = toTriangles(py::array::ensure(triangles), vertices.shape(0));
+  p.triangles = toTriangles(triangles, vertices.shape(0), "vertex", "vertices");
   p.density = density;
   p.thickness = thickness;
   p.stretching_compliance = stretching_compliance;

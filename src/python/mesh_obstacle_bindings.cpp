@@ -37,14 +37,13 @@ void bindMeshObstacle(py::module_& module) {
       "Args: vertices (V, 3) [m] of its own frame; triangles (T, 3), indices of vertices, wound either way;\n"
       "translation (3,) [m] and rotation (4,), quaternion x, y, z, w, of the obstacle in the fixed frame. Raises\n"
       "ValueError with all mistakes at once.");
-  mesh.def(py::init([](const Points& vertices, const py::object& triangles, const Vector3& translation,
+  mesh.def(py::init([](const Points& vertices, const py::object& triangles, const Numbers3& translation,
                        const std::array<double, 4>& rotation) {
              const std::vector<Vector3> corners = toVertices(vertices);
-             const Triangles faces =
-                 toTriangles(triangles, static_cast<py::ssize_t>(corners.size()), "vertex", "vertices");
-             return std::make_shared<MeshObstacle>(corners, faces, translation, toQuaternion(rotation));
+             const auto faces = toTriangles(triangles, static_cast<py::ssize_t>(corners.size()), "vertex", "vertices");
+             return std::make_shared<MeshObstacle>(corners, faces, toVector(translation), toQuaternion(rotation));
            }),
-           py::arg("vertices"), py::arg("triangles"), py::arg("translation") = Vector3::Zero().eval(),
+           py::arg("vertices"), py::arg("triangles"), py::arg("translation") = Numbers3{},
            py::arg("rotation") = identity);
   mesh.def_property_readonly("warnings", &MeshObstacle::warnings,
                              "Sentences about what was dropped or turned, and what has no sign.");

@@ -20,10 +20,10 @@ void bindPlanarObstacle(py::module_& module) {
       "that plane names ('xy', 'yz' or 'xz'); translation (3,) [m] and rotation (4,), quaternion x, y, z, w, of the\n"
       "obstacle in the fixed frame. Raises ValueError with all mistakes at once.");
   polygon.def(py::init([](const std::vector<std::array<double, 2>>& points, const std::string& plane,
-                          const Vector3& translation, const std::array<double, 4>& rotation) {
-                return std::make_shared<PlanarObstacle>(points, plane, translation, toQuaternion(rotation));
+                          const Numbers3& translation, const std::array<double, 4>& rotation) {
+                return std::make_shared<PlanarObstacle>(points, plane, toVector(translation), toQuaternion(rotation));
               }),
-              py::arg("points"), py::arg("plane") = "yz", py::arg("translation") = Vector3::Zero().eval(),
+              py::arg("points"), py::arg("plane") = "yz", py::arg("translation") = Numbers3{},
               py::arg("rotation") = identity);
   bindPose(&polygon);
 }

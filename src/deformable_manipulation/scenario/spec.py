@@ -41,11 +41,17 @@ class RodSpec:
     pose: Pose = Pose()
 
     type = "rod"
+    triangles = None  # it is a line
 
     @property
     def particles(self) -> int:
         """Number of particles that can be held (the segments)."""
         return self.segments
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the centre line."""
+        return self.radius
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,11 @@ class FabricSpec:
     def particles(self) -> int:
         """Number of particles that can be held (the vertices)."""
         return len(self.vertices)
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the mid-surface."""
+        return 0.5 * self.thickness
 
 
 @dataclass(frozen=True)
