@@ -9,6 +9,7 @@ from deformable_manipulation.scenario.controller import CONTROLLER
 from deformable_manipulation.scenario.document import read_document
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
+from deformable_manipulation.scenario.formulation import check_formulation
 from deformable_manipulation.scenario.names import FRAME, ONE_LINE
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import read_obstacles
@@ -110,6 +111,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
             function(report, *(parts[key] for key in keys))
 
     check(checks.check_loop, "controller")
+    check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(checks.check_starts, "object", "agents")
     check(checks.check_limits, "object", "agents", "controller")
