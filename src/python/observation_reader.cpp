@@ -1,5 +1,7 @@
 #include "observation_reader.h"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -58,7 +60,7 @@ std::string ObservationReader::read(const py::handle& observation, int agents) {
 
 void ObservationReader::readState(const py::handle& observation, int agents) {
   const py::object time = observation.attr("time");
-  if (!PyFloat_Check(time.ptr()) && !PyLong_Check(time.ptr()) && !PyIndex_Check(time.ptr()) ) {
+  if (!PyFloat_Check(time.ptr()) && !py::isinstance(time, py::module_::import("numbers").attr("Real"))) {
     throw Unusable{std::string("time of the state is ") + Py_TYPE(time.ptr())->tp_name + ", expected a number"};
   }
   view_.time = time.cast<double>();

@@ -7,6 +7,7 @@ from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.distance.features import Distances
 
 _STATUSES = sorted(Status)
 _KINDS = ("collision", "overstretch", "proximity")
@@ -105,9 +106,12 @@ class AssistantController:
 
 
 def _wrong_type(observation):
-    if isinstance(observation, Observation):
-        return ""
-    return f"it got {type(observation).__name__}, not an Observation"
+    if not isinstance(observation, Observation):
+        return f"it got {type(observation).__name__}, not an Observation"
+    distances = observation.distances
+    if not isinstance(distances, Distances):
+        return f"distances of the state is {type(distances).__name__}, expected Distances"
+    return ""
 
 
 def _relaxation(slacks):

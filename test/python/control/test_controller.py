@@ -252,7 +252,9 @@ def test_without_safety_the_nominal_velocity_passes_within_its_limits(scenario):
 
 
 def test_the_single_row_of_the_paper():
-    scenario = build.scenario(collision=CollisionSpec(offset=0.05, gradient="minimum"))
+    scenario = build.scenario(
+        formulation="paper", collision=CollisionSpec(offset=0.05, gradient="minimum")
+    )
     observation = observed(scenario, obstacle=GROUND)
     decision = AssistantController(scenario, "assistant_1").update(observation)
     assert decision.rows == 3

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.velocity_estimator import VelocityEstimator
+from deformable_manipulation._control import VelocityEstimator
 
 
 def fed(stamps, positions, **settings):
