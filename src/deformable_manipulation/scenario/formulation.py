@@ -30,7 +30,7 @@ class FormulatedSection(Section):
 
 
 def _completed(given, defaults):
-    """``given`` with the defaults for what it lacks, at every depth; what is no mapping as it is."""
+    """``given`` with the defaults for what it lacks, at every depth; no mapping: as it is."""
     if not (isinstance(given, dict) and isinstance(defaults, dict)):
         return given
     known = {key: _completed(given.get(key, {}), value) for key, value in defaults.items()

@@ -160,7 +160,7 @@ def test_a_softer_row_asks_earlier():
 
 
 def test_rows_come_and_go_without_a_step():
-    """At the edge of the band no velocity is beyond the row; on the way there it loosens steadily."""
+    """Towards the edge of the band it loosens steadily, until no velocity is beyond it."""
     band, nearest, bounds = 0.1, OFFSET - 0.08, []
     barrier = barriers(1, band=band)[0]
     for beyond in np.linspace(0.0, band, 201):
