@@ -44,6 +44,6 @@ SUBJECTS: Dict[str, Subject] = {
     "qp": Subject(
         "the safety filter's quadratic program",
         "deformable_manipulation.benchmarks.qp",
-        ("numpy", "quadprog", "qpsolvers"),
+        ("numpy", "quadprog", "qpsolvers", "daqp"),
     ),
 }
