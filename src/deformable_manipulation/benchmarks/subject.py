@@ -46,4 +46,9 @@ SUBJECTS: Dict[str, Subject] = {
         "deformable_manipulation.benchmarks.qp",
         ("numpy", "quadprog", "qpsolvers", "daqp"),
     ),
+    "cycle": Subject(
+        "the parts of a controller cycle, in one process without ROS",
+        "deformable_manipulation.benchmarks.cycle",
+        ("numpy",),
+    ),
 }
