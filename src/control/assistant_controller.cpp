@@ -145,8 +145,7 @@ void AssistantController::decide(bool usable) {
 void AssistantController::describeGradients() {
   const bool any = features_.size() > 0;
   decision_.jacobian = any ? features_.gradient(0, parameters_.agent) : Vector3::Zero();
-  decision_.leader_drift =
-      any ? features_.gradient(0, parameters_.leader).dot(situation_.leaderVelocity()) : 0.0;
+  decision_.leader_drift = any ? features_.gradient(0, parameters_.leader).dot(situation_.leaderVelocity()) : 0.0;
 }
 
 //! Velocities that the limits of velocity and acceleration allow in the next cycle.

@@ -38,12 +38,12 @@ std::string notFinite(const ObservationView& o) {
   const DistancesView& d = o.distances;
   const long vectors = 3L * d.features;
   const long coordinates = 3L * o.copies * o.points;
-  for (const Field& field : {Field{"positions", o.positions, 3L * o.agents}, Field{"points", o.coordinates, coordinates},
-                             Field{"displacements", o.displacements, 3L * o.copies},
-                             Field{"distances.distance", d.distance, d.features},
-                             Field{"distances.normal", d.normal, vectors}, Field{"distances.weights", d.weights, vectors},
-                             Field{"distances.obstacle_velocity", d.obstacle_velocity, vectors},
-                             Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
+  for (const Field& field :
+       {Field{"positions", o.positions, 3L * o.agents}, Field{"points", o.coordinates, coordinates},
+        Field{"displacements", o.displacements, 3L * o.copies}, Field{"distances.distance", d.distance, d.features},
+        Field{"distances.normal", d.normal, vectors}, Field{"distances.weights", d.weights, vectors},
+        Field{"distances.obstacle_velocity", d.obstacle_velocity, vectors},
+        Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
     if (field.values != nullptr && !areFinite(field.values, field.count)) {
       return std::string(field.name) + " of the state holds a number that is not finite";
     }

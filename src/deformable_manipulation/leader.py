@@ -80,7 +80,7 @@ def _positions(waypoints):
 
 
 def _coefficients(times, positions):
-    """(pieces, 6, 3) m, of the powers of s: quintic Hermite polynomials of zero end accelerations."""
+    """(pieces, 6, 3) m, of the powers of s: quintics (Hermite) of zero end accelerations."""
     if len(times) == 1:
         return np.concatenate((positions, np.zeros((5, 3))))[None]
     duration = np.diff(times)[:, None]

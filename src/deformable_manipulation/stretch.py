@@ -20,8 +20,8 @@ def rod_stretch(points: np.ndarray, segment_length: float) -> float:
     squares = np.einsum("pi,pi->p", edges, edges)
     if not math.isfinite(squares.sum()):
         return math.nan
-    changes = [math.sqrt(square) / segment_length - 1.0 for square in (squares.min(), squares.max())]
-    return max(changes, key=abs)
+    extremes = (squares.min(), squares.max())
+    return max((math.sqrt(square) / segment_length - 1.0 for square in extremes), key=abs)
 
 
 def largest_stretch(stretches: np.ndarray) -> Optional[float]:

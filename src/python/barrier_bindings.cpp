@@ -73,9 +73,10 @@ void bindBarriers(py::module_& module) {
             return rows;
           },
           py::arg("situation"), "One constraint per other agent.");
-  py::class_<CollisionBarrier>(module, "CollisionBarrier",
-                               "Barrier on the distances of features to obstacles; offset, margin, band [m], speed_margin\n"
-                               "[s], max_velocity [m/s], slopes of alpha and anticipation [1/s].")
+  py::class_<CollisionBarrier>(
+      module, "CollisionBarrier",
+      "Barrier on the distances of features to obstacles; offset, margin, band [m], speed_margin\n"
+      "[s], max_velocity [m/s], slopes of alpha and anticipation [1/s].")
       .def(py::init(&makeCollision), py::arg("agent"), py::arg("assistants"), py::arg("offset"),
            py::arg("alpha") = Slopes(1.0, 5.0), py::arg("anticipation") = Slopes(0.4, 5.0), py::arg("margin") = 0.0,
            py::arg("speed_margin") = 0.0, py::arg("band") = 0.1, py::arg("max_velocity") = 0.15,

@@ -47,7 +47,8 @@ void bindEstimator(py::module_& module) {
              return ShapedEstimator{VelocityEstimator(min_interval, jump_back), {}};
            }),
            py::arg("min_interval") = 1e-4, py::arg("jump_back") = 0.2)
-      .def("reset", [](ShapedEstimator& e) { e.estimator.reset(); }, "Forgets all positions.")
+      .def(
+          "reset", [](ShapedEstimator& e) { e.estimator.reset(); }, "Forgets all positions.")
       .def("update", &ShapedEstimator::update, py::arg("time"), py::arg("position"),
            "Takes in a position [m] stamped with a time [s]; whether it was accepted: finite and newer than all\n"
            "before, or after a jump back.")

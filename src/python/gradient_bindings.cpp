@@ -75,21 +75,23 @@ struct BoundDifferences {
 }  // namespace
 
 void bindGradients(py::module_& module) {
-  py::class_<Features>(module, "Features",
-                       "M nearest features of the object: distance (M,) [m], normal (M, 3), obstacle_velocity (M, 3)\n"
-                       "[m/s], gradients (M, A, 3): gradients[m, a] . v is the rate at which feature m's distance grows\n"
-                       "when agent a's held point moves with the velocity v.")
+  py::class_<Features>(
+      module, "Features",
+      "M nearest features of the object: distance (M,) [m], normal (M, 3), obstacle_velocity (M, 3)\n"
+      "[m/s], gradients (M, A, 3): gradients[m, a] . v is the rate at which feature m's distance grows\n"
+      "when agent a's held point moves with the velocity v.")
       .def(py::init(&makeFeatures), py::arg("distance"), py::arg("normal"), py::arg("obstacle_velocity"),
            py::arg("gradients"))
-      .def_property_readonly(
-          "distance", [](const Features& f) { return py::array_t<double>(f.size(), f.distance.data()); })
+      .def_property_readonly("distance",
+                             [](const Features& f) { return py::array_t<double>(f.size(), f.distance.data()); })
       .def_property_readonly("normal", [](const Features& f) { return toArray(f.normal); })
       .def_property_readonly("obstacle_velocity", [](const Features& f) { return toArray(f.obstacle_velocity); })
       .def_property_readonly("gradients", &gradientsOf);
   py::class_<BoundDifferences>(module, "Differences",
                                "Displacement rates of the object from its perturbed copies, kept over the cycles.")
       .def(py::init<int, int>(), py::arg("agents"), py::arg("leader"))
-      .def("reset", [](BoundDifferences& b) { b.differences.reset(); }, "Forgets all rates.")
+      .def(
+          "reset", [](BoundDifferences& b) { b.differences.reset(); }, "Forgets all rates.")
       .def(
           "known", [](const BoundDifferences& b, int agent) { return b.differences.known(agent); }, py::arg("agent"),
           "Whether all copies of an agent have been ready at once since the start or reset.")

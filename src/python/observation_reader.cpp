@@ -18,9 +18,7 @@ struct Unusable {
   std::string fault;
 };
 
-std::string text(const std::vector<py::ssize_t>& shape) {
-  return py::str(py::tuple(py::cast(shape)));
-}
+std::string text(const std::vector<py::ssize_t>& shape) { return py::str(py::tuple(py::cast(shape))); }
 
 //! An attribute that must be an array of one of the kinds of numpy's numbers.
 py::array arrayOf(const py::handle& owner, const char* key, const char* name, const char* kinds) {
@@ -110,8 +108,7 @@ const double* ObservationReader::numbers(const py::handle& owner, const char* ke
 }
 
 //! What no int holds becomes the nearest that one does, which is no index either.
-const int* ObservationReader::indices(const py::handle& owner, const char* key, const char* name,
-                                      const Shape& shape) {
+const int* ObservationReader::indices(const py::handle& owner, const char* key, const char* name, const Shape& shape) {
   const py::array array = arrayOf(owner, key, name, "iu");
   requireShape(array, name, shape);
   if (py::isinstance<py::array_t<int, py::array::c_style>>(array)) {

@@ -81,9 +81,10 @@ QpSolver solverFromPython(const py::object& solver) {
 }
 
 void bindQuadraticProgram(py::module_& module) {
-  module.def("solve_qp", &solve, py::arg("hessian"), py::arg("linear"), py::arg("constraints"), py::arg("limits"),
-             "The x (n,) that minimises 1/2 x' diag(hessian) x + linear' x subject to constraints x >= limits, or None\n"
-             "where the constraints contradict each other; hessian (n,) > 0, constraints (m, n).");
+  module.def(
+      "solve_qp", &solve, py::arg("hessian"), py::arg("linear"), py::arg("constraints"), py::arg("limits"),
+      "The x (n,) that minimises 1/2 x' diag(hessian) x + linear' x subject to constraints x >= limits, or None\n"
+      "where the constraints contradict each other; hessian (n,) > 0, constraints (m, n).");
   py::class_<ConstraintRows>(module, "ConstraintRows",
                              "Constraints coefficients . u >= bound on a velocity u [m/s] of some components.")
       .def(py::init(&makeRows), py::arg("components") = 3)
@@ -127,11 +128,12 @@ void bindQuadraticProgram(py::module_& module) {
             return bounds;
           },
           "(rows,) m/s.");
-  py::class_<SafetyFilter>(module, "SafetyFilter",
-                           "The velocity nearest to the nominal one that rows and bounds allow.\n\n"
-                           "weights gamma (n,), positive; priority: of the limits, the last to yield first; relaxation\n"
-                           "False: rows that cannot all hold fail; solver: called with the program's matrices P (n, n), "
-                           "q, A, b,\ngives x or None. Raises ValueError.")
+  py::class_<SafetyFilter>(
+      module, "SafetyFilter",
+      "The velocity nearest to the nominal one that rows and bounds allow.\n\n"
+      "weights gamma (n,), positive; priority: of the limits, the last to yield first; relaxation\n"
+      "False: rows that cannot all hold fail; solver: called with the program's matrices P (n, n), "
+      "q, A, b,\ngives x or None. Raises ValueError.")
       .def(py::init(&makeFilter), py::arg("weights"),
            py::arg("priority") = std::vector<std::string>{"collision", "overstretch", "proximity"},
            py::arg("relaxation") = true, py::arg("solver") = py::none())

@@ -57,7 +57,7 @@ class Chain {
     view_.displaced_agents = displaced_.data();
     view_.displacements = displacements_.data();
     view_.ready = ready_;
-    view_.distances = {minimum_.data(), offsets_.data(),  distance_.data(), normal_.data(),
+    view_.distances = {minimum_.data(),  offsets_.data(), distance_.data(), normal_.data(),
                        vertices_.data(), weights_.data(), still_.data(),    features_};
     return view_;
   }

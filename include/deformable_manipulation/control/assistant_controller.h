@@ -24,18 +24,18 @@ struct PairParameters {
 };
 
 struct ControllerParameters {
-  int agent = 1;                          //!< index of this assistant among the A agents
-  int leader = 0;                         //!< index of the leader
-  std::vector<int> assistants;            //!< indices of all assistants
-  Vector3 reference = Vector3::Zero();    //!< [m] place to keep relative to the leader
-  double cycle_time = 0.01;               //!< [s]
-  double gain = 1.0;                      //!< [1/s]
-  Vector3 weights = Vector3::Ones();      //!< cost of departing from the nominal velocity per axis
-  double max_velocity = 0.15;             //!< [m/s] of every component
-  double max_acceleration = 1.0;          //!< [m/s^2] of every component
-  double timeout = 0.2;                   //!< [s] a state older than the last by more means that time was set back
-  bool exact_gradients = false;           //!< from the response, where it is known
-  bool safety = true;                     //!< false: the nominal velocity within its limits
+  int agent = 1;                        //!< index of this assistant among the A agents
+  int leader = 0;                       //!< index of the leader
+  std::vector<int> assistants;          //!< indices of all assistants
+  Vector3 reference = Vector3::Zero();  //!< [m] place to keep relative to the leader
+  double cycle_time = 0.01;             //!< [s]
+  double gain = 1.0;                    //!< [1/s]
+  Vector3 weights = Vector3::Ones();    //!< cost of departing from the nominal velocity per axis
+  double max_velocity = 0.15;           //!< [m/s] of every component
+  double max_acceleration = 1.0;        //!< [m/s^2] of every component
+  double timeout = 0.2;                 //!< [s] a state older than the last by more means that time was set back
+  bool exact_gradients = false;         //!< from the response, where it is known
+  bool safety = true;                   //!< false: the nominal velocity within its limits
   Formulation formulation;
   Priority priority = DEFAULT_PRIORITY;
   CollisionParameters collision;

@@ -46,9 +46,9 @@ class Differences {
 
   struct Agent {
     bool known = false;
-    Rates rates;             // [3, 3 P + 1] of the coordinates of the points, then of the minimum
-    Directions directions;   // [ready copies, 3] m, that the inverse is of
-    Eigen::MatrixXd inverse; // [3, ready copies]
+    Rates rates;              // [3, 3 P + 1] of the coordinates of the points, then of the minimum
+    Directions directions;    // [ready copies, 3] m, that the inverse is of
+    Eigen::MatrixXd inverse;  // [3, ready copies]
   };
 
   void updateAgent(int index, const ObservationView& observation);
@@ -56,8 +56,8 @@ class Differences {
 
   int leader_;
   std::vector<Agent> agents_;
-  std::vector<int> usable_;       // copies of the agent at hand
-  Directions directions_;         // [usable, 3] m
+  std::vector<int> usable_;                                                        // copies of the agent at hand
+  Directions directions_;                                                          // [usable, 3] m
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> change_;  // [usable, 3 P + 1]
 };
 

@@ -51,19 +51,19 @@ class DualActiveSet {
   int rows_ = 0;
   int iterations_ = 0;
   double tolerance_ = 0.0;
-  Eigen::VectorXd root_;      // [n] of the Hessian's diagonal
-  RowMatrix normals_;         // [rows, n] of unit length, in y
-  Eigen::VectorXd levels_;    // [rows] normals y >= levels
-  Eigen::VectorXd y_;         // [n]
-  Eigen::VectorXd solution_;  // [n]
-  Eigen::MatrixXd Q_;         // [n, n] the first columns span the active normals
-  Eigen::MatrixXd R_;         // [n, n] upper triangle
-  Eigen::VectorXd d_;         // [n] Q' times the entering normal
-  Eigen::VectorXd direction_;     // [n] of y while the entering constraint's multiplier grows by one
-  Eigen::VectorXd reduction_;     // [n] of the active multipliers meanwhile
-  Eigen::VectorXd multipliers_;   // [n] of the active constraints
-  std::vector<int> active_;       // rows, in the order of the columns of R
-  std::vector<char> is_active_;   // [rows]
+  Eigen::VectorXd root_;         // [n] of the Hessian's diagonal
+  RowMatrix normals_;            // [rows, n] of unit length, in y
+  Eigen::VectorXd levels_;       // [rows] normals y >= levels
+  Eigen::VectorXd y_;            // [n]
+  Eigen::VectorXd solution_;     // [n]
+  Eigen::MatrixXd Q_;            // [n, n] the first columns span the active normals
+  Eigen::MatrixXd R_;            // [n, n] upper triangle
+  Eigen::VectorXd d_;            // [n] Q' times the entering normal
+  Eigen::VectorXd direction_;    // [n] of y while the entering constraint's multiplier grows by one
+  Eigen::VectorXd reduction_;    // [n] of the active multipliers meanwhile
+  Eigen::VectorXd multipliers_;  // [n] of the active constraints
+  std::vector<int> active_;      // rows, in the order of the columns of R
+  std::vector<char> is_active_;  // [rows]
 };
 
 }  // namespace control

@@ -20,8 +20,8 @@ constexpr Priority DEFAULT_PRIORITY = {Tier::COLLISION, Tier::OVERSTRETCH, Tier:
 
 //! Result of the safety filter.
 struct Filtered {
-  Eigen::VectorXd velocity;  //!< [n] m/s always finite and within the bounds, or zero if FAILED
-  Status status = Status::FAILED;  //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
+  Eigen::VectorXd velocity;              //!< [n] m/s always finite and within the bounds, or zero if FAILED
+  Status status = Status::FAILED;        //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
   std::array<double, TIERS> slack = {};  //!< [m/s] by how much the rows of each tier are missed at most
   int rows = 0;
 };

@@ -8,7 +8,8 @@ import numpy as np
 from deformable_manipulation.leader import LeaderPath
 from deformable_manipulation.scenario.spec import Vector, Waypoint
 
-_ATTEMPTS = 1000
+_PATHS = 50  # tried before giving up
+_PLACES = 200  # tried for one waypoint
 _SLOWEST = 0.25  # of the top speed, mean over a leg
 _TIMES_PER_LEG = 20  # at which clearance is asked for
 
@@ -28,8 +29,12 @@ class PathLimits:
 
     def __post_init__(self):
         lower, upper = np.asarray(self.lower, dtype=float), np.asarray(self.upper, dtype=float)
-        inside = lower.shape == upper.shape == (3,) and (lower <= 0.0).all() and (upper >= 0.0).all()
-        if not (inside and np.isfinite([lower, upper]).all() and (lower < upper).any()):
+        if not (
+            lower.shape == upper.shape == (3,)
+            and np.isfinite([lower, upper]).all()
+            and ((lower <= 0.0) & (upper >= 0.0)).all()
+            and (lower < upper).any()
+        ):
             raise ValueError(
                 f"lower {self.lower}, upper {self.upper}: allowed are three finite numbers each, "
                 "the start (0, 0, 0) in between, and some room"
@@ -58,11 +63,11 @@ def random_waypoints(
     Raises:
         RuntimeError: no clear path was found; the box may be blocked.
     """
-    for _ in range(_ATTEMPTS):
+    for _ in range(_PATHS):
         waypoints = _candidate(generator, limits, is_clear)
         if waypoints is not None and is_clear(_positions(waypoints)):
             return waypoints
-    raise RuntimeError(f"no clear path within {limits} in {_ATTEMPTS} attempts")
+    raise RuntimeError(f"no clear path within {limits} in {_PATHS} attempts")
 
 
 def _candidate(generator, limits, is_clear):
@@ -85,7 +90,7 @@ def _candidate(generator, limits, is_clear):
 
 
 def _reachable(draw, here, is_clear):
-    for _ in range(_ATTEMPTS):
+    for _ in range(_PLACES):
         there = draw()
         if is_clear(np.linspace(here, there, _TIMES_PER_LEG)):
             return there

@@ -176,7 +176,7 @@ class ControllerSpec:
     max_velocity: float = 0.15  # m/s, bound on every component
     max_acceleration: float = 1.0  # m/s^2, bound on every component
     perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
-    jacobian: str = "perturbed_copies"  # where gradients come from; "equilibrium": exact ones
+    jacobian: str = "equilibrium"  # exact gradients where known; or "perturbed_copies"
     differences: str = "central"  # "central": copies on both sides; "forward": on one (the paper)
     feedforward: bool = True  # leader's velocity in the nominal law and in the rows
     solver: str = "native"  # of the quadratic program; others: those of qpsolvers

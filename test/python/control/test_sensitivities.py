@@ -87,7 +87,7 @@ def without_copies(observation):
 def test_the_controller_takes_the_exact_response_where_it_is_wanted_and_known(seen):
     body, observation = seen
     known = dataclasses.replace(observation, sensitivities=body.sensitivities)
-    copies = controller().update(known)
+    copies = controller(jacobian="perturbed_copies").update(known)
     exact = controller(jacobian="equilibrium").update(known)
     assert exact.exact_jacobian and not copies.exact_jacobian
     np.testing.assert_allclose(exact.jacobian, copies.jacobian, atol=1e-11)
