@@ -170,18 +170,18 @@ void AssistantController::passUnfiltered() {
 }
 
 void AssistantController::passFiltered() {
-  const auto start = std::chrono::steady_clock::now();
   rows_.clear(3);
   collision_.addRows(features_, situation_, rows_);
   overstretch_.addRows(situation_, rows_);
   proximity_.addRows(situation_, rows_);
   nominal_ = decision_.nominal;
+  const auto start = std::chrono::steady_clock::now();
   const Filtered& result = filter_.filter(nominal_, rows_, lower_, upper_);
+  decision_.solve_time = secondsSince(start);
   decision_.status = result.status;
   decision_.command = result.velocity;
   decision_.rows = result.rows;
   decision_.slack = result.slack;
-  decision_.solve_time = secondsSince(start);
 }
 
 }  // namespace control

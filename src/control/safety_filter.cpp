@@ -133,12 +133,9 @@ void SafetyFilter::addRow(const Given& given, int row) {
   const ConstraintRows::Coefficients g = given.rows.coefficients(row);
   double limit = given.rows.bound(row);
   if (relaxation_) {
-    const auto ends = [&](const auto& choose) {
-      return g.cwiseProduct(given.lower).binaryExpr(g.cwiseProduct(given.upper), choose).sum();
-    };
-    const double most = ends([](double a, double b) { return std::max(a, b); });
-    const double least = ends([](double a, double b) { return std::min(a, b); });
-    if (limit <= least || g.cwiseAbs().sum() < NEGLIGIBLE_GRADIENT) {
+    const double most = g.cwiseMax(0.0).dot(given.upper) + g.cwiseMin(0.0).dot(given.lower);
+    const double least = g.cwiseMax(0.0).dot(given.lower) + g.cwiseMin(0.0).dot(given.upper);
+    if (limit <= least || g.lpNorm<1>() < NEGLIGIBLE_GRADIENT) {
       return;
     }
     limit = std::min(limit, most);

@@ -15,27 +15,15 @@ bool VelocityEstimator::update(double time, const Eigen::Ref<const Eigen::Vector
   }
   if (known_ == 0) {
     velocity_.setZero(position.size());
-    acceleration_.setZero(position.size());
+  } else if (time < time_ + min_interval_) {
+    return false;
   } else {
-    if (time < time_ + min_interval_) {
-      return false;
-    }
-    const double middle = 0.5 * (time + time_);
-    const double interval = time - time_;
-    if (known_ > 1) {
-      acceleration_ = ((position - position_) / interval - velocity_) / (middle - velocity_time_);
-    }
-    velocity_ = (position - position_) / interval;
-    velocity_time_ = middle;
+    velocity_ = (position - position_) / (time - time_);
   }
   time_ = time;
   position_ = position;
-  known_ = std::min(known_ + 1, 3);
+  known_ = std::min(known_ + 1, 2);
   return true;
-}
-
-Eigen::VectorXd VelocityEstimator::velocityAt(double time) const {
-  return velocity_ + (time - velocity_time_) * acceleration_;
 }
 
 }  // namespace control

@@ -29,12 +29,11 @@ struct ShapedEstimator {
     return accepted;
   }
 
-  Numbers velocity(const py::object& at) const {
+  Numbers velocity() const {
     if (!estimator.hasPosition()) {
       throw std::runtime_error("no position known yet: call update first");
     }
-    const Eigen::VectorXd flat = at.is_none() ? estimator.velocity() : estimator.velocityAt(at.cast<double>());
-    return Numbers(shape, flat.data());
+    return Numbers(shape, estimator.velocity().data());
   }
 };
 
@@ -52,9 +51,9 @@ void bindEstimator(py::module_& module) {
       .def("update", &ShapedEstimator::update, py::arg("time"), py::arg("position"),
            "Takes in a position [m] stamped with a time [s]; whether it was accepted: finite and newer than all\n"
            "before, or after a jump back.")
-      .def("velocity", &ShapedEstimator::velocity, py::arg("at") = py::none(),
-           "Velocity [m/s], the mean of the newest interval or extrapolated to a time; zeros while fewer than two\n"
-           "positions are known. Raises RuntimeError where none is.");
+      .def("velocity", &ShapedEstimator::velocity,
+           "Mean velocity [m/s] of the newest interval; zeros while fewer than two positions are known. Raises\n"
+           "RuntimeError where none is.");
 }
 
 }  // namespace

@@ -30,13 +30,15 @@ struct BoundController {
 
 py::array_t<double> toArray(const Vector3& vector) { return py::array_t<double>(3, vector.data()); }
 
-//! The fields of control.decision.Decision from `command` to `solve_time`, after the status as a number.
+//! The status as a number, the fields of control.decision.Decision from `command` to `rows`, the slacks, the time of
+//! the solver.
 py::tuple toTuple(const Decision& d) {
-  const auto slack = [&](Tier tier) { return d.slack[static_cast<int>(tier)]; };
-  return py::make_tuple(static_cast<int>(d.status), toArray(d.command), toArray(d.nominal), toArray(d.position),
-                        toArray(d.target), toArray(d.target - d.position), d.distance, d.h_collision, d.h_overstretch,
-                        d.h_proximity, toArray(d.jacobian), d.exact_jacobian, d.leader_drift, d.rows,
-                        slack(Tier::COLLISION), slack(Tier::OVERSTRETCH), slack(Tier::PROXIMITY), d.solve_time);
+  const py::tuple fields =
+      py::make_tuple(toArray(d.command), toArray(d.nominal), toArray(d.position), toArray(d.target),
+                     toArray(d.target - d.position), d.distance, d.h_collision, d.h_overstretch, d.h_proximity,
+                     toArray(d.jacobian), d.exact_jacobian, d.leader_drift, d.rows);
+  const py::tuple slacks = py::make_tuple(d.slack[0], d.slack[1], d.slack[2]);
+  return py::make_tuple(static_cast<int>(d.status), fields, slacks, d.solve_time);
 }
 
 py::object update(BoundController& bound, const py::object& observation) {
@@ -59,7 +61,7 @@ void takeReference(BoundController& bound, const py::object& observation) {
   bound.controller.takeReference(bound.reader.view());
 }
 
-//! Reads parameters from an object with attributes of their names, as closed by `makeController`.
+//! Reads a parameter by its name.
 template <typename Value>
 void read(const py::dict& from, const char* key, Value& to) {
   to = from[key].cast<Value>();

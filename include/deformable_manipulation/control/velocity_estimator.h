@@ -10,8 +10,7 @@ namespace control {
 //! The difference of the positions at t - dt and t is the mean velocity of that interval, that is the
 //! velocity at t - dt / 2. The command computed from it acts from t + dt to t + 2 dt, around t + 3 dt / 2:
 //! two cycles later. For an agent that accelerates by a, the estimate is 2 a dt behind by then (2 mm/s for
-//! 0.1 m/s^2 at 100 Hz). velocityAt extrapolates linearly over that time, which quadruples the effect of noise
-//! in the positions.
+//! 0.1 m/s^2 at 100 Hz). Extrapolating would mend that and quadruple the effect of noise in the positions.
 //!
 //! One estimator serves all coordinates of all agents that share their stamps.
 class VelocityEstimator {
@@ -35,18 +34,13 @@ class VelocityEstimator {
   //! Mean velocity [m/s] of the newest interval; zeros while fewer than two positions are known.
   const Eigen::VectorXd& velocity() const { return velocity_; }
 
-  //! Velocity [m/s] extrapolated to a time [s].
-  Eigen::VectorXd velocityAt(double time) const;
-
  private:
   double min_interval_;
   double jump_back_;
-  int known_ = 0;  // positions, as far as they matter: 3 give an acceleration
+  int known_ = 0;  // positions, as far as they matter: 2 give a velocity
   double time_ = 0.0;
-  double velocity_time_ = 0.0;  // middle of the newest interval
   Eigen::VectorXd position_;
   Eigen::VectorXd velocity_;
-  Eigen::VectorXd acceleration_;
 };
 
 }  // namespace control

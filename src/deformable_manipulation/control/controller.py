@@ -94,15 +94,18 @@ class AssistantController:
         """
         return self._decision(self._native.wait(), reason)
 
-    def _decision(self, values, fault="", computation_time=0.0):
-        status = _STATUSES[values[0]]
+    def _decision(self, outcome, fault="", computation_time=0.0):
+        number, fields, slacks, solve_time = outcome
+        status = _STATUSES[number]
         if status is Status.WAITING:
             text = f"Waits, zero velocity: {fault}."
         elif status is Status.RELAXED:
-            text = _relaxation(values[14:17])
+            text = _relaxation(slacks)
         else:
             text = status.sentence
-        return Decision(status, text, self._native.enabled, *values[1:], computation_time)
+        return Decision(
+            status, text, self._native.enabled, *fields, *slacks, solve_time, computation_time
+        )
 
 
 def _wrong_type(observation):

@@ -206,6 +206,90 @@ def test_collision_outranks_overstretch_outranks_proximity():
         assert result.slack[high] == 0.0
 
 
+@pytest.mark.parametrize("priority", list(itertools.permutations(PRIORITY)))
+def test_the_priority_is_the_users(priority):
+    safety = SafetyFilter(np.ones(3), priority=list(priority))
+    tiers = [LIMITS[PRIORITY.index(name)] for name in priority]
+    for high, low in itertools.combinations(tiers, 2):
+        parts = [rows(low, [-1.0, 0.0, 0.0], 0.05), rows(high, [1.0, 0.0, 0.0], 0.1)]
+        result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
+        np.testing.assert_allclose(result.velocity, [0.1, 0.0, 0.0], atol=1e-8)
+        assert result.slack[high] == 0.0 < result.slack[low]
+
+
+@pytest.mark.parametrize(
+    "priority",
+    [["collision", "overstretch"], ["collision"] * 3, ["collision", "proximity", "anticipation"],
+     ["collision", "overstretch", "speed"]],
+)
+def test_a_priority_is_an_order_of_the_limits(priority):
+    with pytest.raises(ValueError, match="priority|speed"):
+        SafetyFilter(np.ones(3), priority=priority)
+
+
+def test_anticipation_pulls_and_gives_way_to_every_limit():
+    wish = rows(Tier.ANTICIPATION, [1.0, 0.0, 0.0], 0.11)
+    safety = SafetyFilter(np.ones(3))
+    pulled = safety.filter(np.zeros(3), [wish], LOWER, UPPER)
+    # 1/2 u^2 + 10/2 (0.11 - u)^2 is least at 0.1.
+    np.testing.assert_allclose(pulled.velocity, [0.1, 0.0, 0.0], atol=1e-8)
+    assert pulled.status == Status.CONSTRAINED
+    assert pulled.slack[Tier.ANTICIPATION] == pytest.approx(0.01)
+    for tier in LIMITS:
+        against = rows(tier, [-1.0, 0.0, 0.0], 0.02)
+        result = safety.filter(np.zeros(3), [wish, against], LOWER, UPPER)
+        np.testing.assert_allclose(result.velocity, [-0.02, 0.0, 0.0], atol=1e-8)
+        assert result.status == Status.CONSTRAINED
+
+
+def test_without_relaxation_contradicting_rows_fail():
+    """The paper's program."""
+    parts = [rows(Tier.COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
+    safety = SafetyFilter(np.ones(3), relaxation=False)
+    result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
+    assert result.status == Status.FAILED
+    np.testing.assert_array_equal(result.velocity, 0.0)
+    generator = np.random.default_rng(5)
+    for _ in range(60):
+        nominal, parts = random_problem(generator, 0.06)
+        result = safety.filter(nominal, parts, LOWER, UPPER)
+        reference = by_enumeration(np.ones(3), nominal, *stacked(parts))
+        if reference is None:
+            assert result.status == Status.FAILED
+        else:
+            np.testing.assert_allclose(result.velocity, reference, atol=1e-7)
+
+
+def test_several_assistants_in_one_program():
+    """Nine velocities, as many rows as three ropes near the ground have."""
+    generator = np.random.default_rng(11)
+    native = SafetyFilter(np.ones(9))
+    reference = SafetyFilter(np.ones(9), solver=find_solver("quadprog"))
+    for _ in range(30):
+        parts = [
+            rows(tier, generator.normal(size=(count, 9)), 0.2 * generator.normal(size=count))
+            for tier, count in ((Tier.COLLISION, 60), (Tier.OVERSTRETCH, 6))
+        ]
+        given = generator.uniform(-0.3, 0.3, 9), parts, np.full(9, -LIMIT), np.full(9, LIMIT)
+        ours, theirs = native.filter(*given), reference.filter(*given)
+        assert ours.status == theirs.status
+        np.testing.assert_allclose(ours.velocity, theirs.velocity, atol=1e-7)
+
+
+@pytest.mark.parametrize("direction", range(3))
+def test_the_command_is_continuous_where_limits_begin_to_contradict(direction):
+    """No jump between the constrained and the relaxed solution, nor anywhere around."""
+    safety = SafetyFilter(np.ones(3))
+    axis = np.eye(3)[direction]
+    tilted = axis + 0.3 * np.eye(3)[direction - 1]
+    velocities = []
+    for bound in np.linspace(-0.1, 0.1, 401):
+        parts = [rows(Tier.COLLISION, tilted, 0.02), rows(Tier.OVERSTRETCH, -axis, bound)]
+        result = safety.filter(np.full(3, 0.05), parts, LOWER, UPPER)
+        velocities.append(result.velocity)
+    assert np.abs(np.diff(velocities, axis=0)).max() < 10 * 0.2 / 400
+
+
 def test_the_worst_row_of_a_tier_is_relieved_as_far_as_possible():
     parts = [rows(Tier.COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
     result = SafetyFilter(np.ones(3)).filter(np.zeros(3), parts, LOWER, UPPER)

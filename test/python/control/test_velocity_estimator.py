@@ -27,13 +27,6 @@ def test_needs_a_position():
         VelocityEstimator().velocity()
 
 
-def test_extrapolation_is_exact_for_constant_acceleration():
-    acceleration, stamps = np.array([0.3, 0.0, -0.1]), (0.0, 0.01, 0.02)
-    estimator = fed(stamps, [0.5 * acceleration * t**2 for t in stamps])
-    np.testing.assert_allclose(estimator.velocity(), 0.015 * acceleration, atol=1e-13)
-    np.testing.assert_allclose(estimator.velocity(at=0.035), 0.035 * acceleration, atol=1e-13)
-
-
 def test_repeated_and_late_stamps_are_ignored():
     estimator = fed([0.0, 0.01], [np.zeros(3), np.full(3, 0.001)])
     assert not estimator.update(0.01, np.full(3, 7.0))
