@@ -13,11 +13,7 @@ namespace {
 
 //! Whether all numbers are finite: a sum of numbers, each times zero, is zero only then.
 bool areFinite(const double* values, long count) {
-  double sum = 0.0;
-  for (long i = 0; i < count; ++i) {
-    sum += 0.0 * values[i];
-  }
-  return sum == 0.0;
+  return (0.0 * Eigen::Map<const Eigen::ArrayXd>(values, count)).sum() == 0.0;
 }
 
 bool areWithin(const int* values, long count, int least, int most) {
