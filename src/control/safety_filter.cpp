@@ -82,7 +82,7 @@ Status SafetyFilter::decide(const Given& given) {
   // With a diagonal cost, clipping is the optimum over the bounds alone, and so the optimum altogether if it
   // satisfies the rows.
   result_.velocity = given.nominal.cwiseMax(given.lower).cwiseMin(given.upper);
-  if (!holds(given, 0.0)) {
+  if (!holds(given)) {
     if (!solve(given)) {
       return Status::FAILED;
     }
@@ -95,9 +95,9 @@ Status SafetyFilter::decide(const Given& given) {
 }
 
 //! Whether the velocity satisfies all rows.
-bool SafetyFilter::holds(const Given& given, double tolerance) const {
+bool SafetyFilter::holds(const Given& given) const {
   for (int row = 0; row < given.rows.size(); ++row) {
-    if (!(given.rows.coefficients(row).dot(result_.velocity) >= given.rows.bound(row) - tolerance)) {
+    if (!(given.rows.coefficients(row).dot(result_.velocity) >= given.rows.bound(row))) {
       return false;
     }
   }
@@ -162,7 +162,7 @@ bool SafetyFilter::solve(const Given& given) {
   }
   // Without the rounding at the bounds.
   result_.velocity = solution_.head(squares_.size()).cwiseMax(given.lower).cwiseMin(given.upper);
-  return relaxation_ || holds(given, VELOCITY_TOLERANCE);
+  return true;
 }
 
 //! Whether the solution is finite and satisfies the program.
@@ -171,7 +171,9 @@ bool SafetyFilter::isValid() const {
     return false;
   }
   for (int row = 0; row < program_.rows; ++row) {
-    if (!(program_.constraints.row(row).dot(solution_) >= program_.limits[row] - VELOCITY_TOLERANCE)) {
+    const auto coefficients = program_.constraints.row(row);
+    const double tolerance = VELOCITY_TOLERANCE * std::max(1.0, coefficients.lpNorm<Eigen::Infinity>());
+    if (!(coefficients.dot(solution_) >= program_.limits[row] - tolerance)) {
       return false;
     }
   }

@@ -75,7 +75,7 @@ class SafetyFilter {
   };
 
   Status decide(const Given& given);
-  bool holds(const Given& given, double tolerance) const;
+  bool holds(const Given& given) const;
   void formulate(const Given& given);
   void addRow(const Given& given, int row);
   void addBounds(const Given& given);

@@ -71,6 +71,12 @@ def test_leaving_the_leaders_velocity_out_breaks_the_offset():
     assert dive(1, feedforward=False, duration=7.0).all("h_collision").min() < lowest - 2e-3
 
 
+def test_the_papers_formulation_falls_short_on_the_same_dive():
+    papers = build.scenario(1, DIVE, formulation="paper", feedforward=False)
+    lowest = Run(papers, 7.0).all("h_collision").min()
+    assert lowest < -1e-3 < 0.0 <= dive(1).all("h_collision").min()
+
+
 @pytest.mark.parametrize("assistants", [1, 3])
 def test_commands_do_not_oscillate(assistants):
     run = dive(assistants)

@@ -331,6 +331,7 @@ def test_bounds_always_hold(parts, nominal, half):
     result = SafetyFilter(np.ones(3)).filter(np.array(nominal), parts, -upper, upper)
     assert np.isfinite(result.velocity).all()
     assert (np.abs(result.velocity) <= upper).all()
+    assert result.status != Status.FAILED
     if result.status in (Status.NOMINAL, Status.CONSTRAINED):
         for part in parts:
             assert (part.coefficients @ result.velocity >= part.bounds - 1e-5).all()
@@ -425,3 +426,4 @@ def test_constraints_that_meet_in_one_point_do_not_go_round_for_ever():
         upper = generator.choice([0.0, 1e-9, 0.01, LIMIT], 3)
         result = safety_filter.filter(generator.choice(values, 3), parts, -upper, upper)
         assert (np.abs(result.velocity) <= upper).all()
+        assert result.status != Status.FAILED
