@@ -41,14 +41,18 @@ class LeaderPath:
         self._coefficients = _coefficients(self._times, self._positions)
         self._starts = self._times[:-1].tolist() or [float(self._times[0])]
         self._durations = np.diff(self._times).tolist() or [1.0]
+        self._end = float(self._times[-1])
+        self._polynomials = self._coefficients.transpose(0, 2, 1).tolist()  # per piece and axis
 
     def at(self, t):
-        """Position [m] (3,) at one time [s], much quicker than :meth:`position`."""
-        t = min(max(t, self._times[0]), self._times[-1])
-        i = max(bisect_right(self._starts, t) - 1, 0)
+        """Position [m] at one time [s] as three numbers, much quicker than :meth:`position`."""
+        t = min(max(t, self._starts[0]), self._end)
+        i = bisect_right(self._starts, t) - 1
         s = (t - self._starts[i]) / self._durations[i]
-        s2 = s * s
-        return np.array((1.0, s, s2, s * s2, s2 * s2, s * s2 * s2)) @ self._coefficients[i]
+        return [
+            ((((c5 * s + c4) * s + c3) * s + c2) * s + c1) * s + c0
+            for c0, c1, c2, c3, c4, c5 in self._polynomials[i]
+        ]
 
     def position(self, t):
         """Position [m] at the times ``t`` [s]; shape ``t.shape + (3,)``."""
@@ -130,7 +134,7 @@ class LeaderController:
 
     def __init__(self, scenario):
         self._path = LeaderPath(scenario.leader.waypoints)
-        self._start = np.array(scenario.agents[scenario.leader_index].start, dtype=float)
+        self._start = [float(value) for value in scenario.agents[scenario.leader_index].start]
         self._cycle_time = scenario.cycle_time
         self._max_return = scenario.controller.max_velocity
         self.reset()
@@ -165,7 +169,15 @@ class LeaderController:
 
     def _command(self, time, position):
         dt = self._cycle_time
-        begin, end = self._path.at(time + dt), self._path.at(time + 2.0 * dt)
-        back = (self._start + begin - (position + dt * self._velocity)) / dt
         limit = self._max_return
-        return (end - begin) / dt + np.minimum(np.maximum(back, -limit), limit)
+        velocity = []
+        for begin, end, start, x, v in zip(
+            self._path.at(time + dt),
+            self._path.at(time + 2.0 * dt),
+            self._start,
+            position.tolist(),
+            self._velocity.tolist(),
+        ):
+            back = (start + begin - (x + dt * v)) / dt
+            velocity.append((end - begin) / dt + min(max(back, -limit), limit))
+        return np.array(velocity)
