@@ -26,9 +26,10 @@ COLUMNS = (
     Column("minimum_us", "minimum [µs]", ".1f"),
 )
 NOTES = (
-    "simulation: the object with all copies, one thread; distances: with reading the state; "
-    "controller: of one assistant, from the observation to its decision; solver: of that, rows and "
-    "bounds to a checked velocity, in cycles where the nominal velocity is none",
+    "simulation: the object with all copies, one thread; distances: with reading the state and, in "
+    "full, the object's exact response; controller: of one assistant, from the observation to its "
+    "decision; solver: of that, rows and bounds to a checked velocity, in cycles where the nominal "
+    "velocity is none",
     f"{WHOLE}: all of them, the leader and the record",
 )
 
