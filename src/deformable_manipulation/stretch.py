@@ -1,6 +1,5 @@
 """Whether an object is as long as its material makes it, or was torn beyond what is simulated."""
 
-import math
 from typing import Optional
 
 import numpy as np
@@ -16,12 +15,9 @@ def rod_stretch(points: np.ndarray, segment_length: float) -> float:
     :param points: (P, 3) segment ends [m].
     :param segment_length: of an undeformed segment [m].
     """
-    edges = points[1:] - points[:-1]
-    squares = np.einsum("pi,pi->p", edges, edges)
-    if not math.isfinite(squares.sum()):
-        return math.nan
-    extremes = (squares.min(), squares.max())
-    return max((math.sqrt(square) / segment_length - 1.0 for square in extremes), key=abs)
+    edges = np.diff(points, axis=0)
+    changes = np.sqrt(np.einsum("pi,pi->p", edges, edges)) / segment_length - 1.0
+    return float(changes[np.argmax(np.abs(changes))])
 
 
 def largest_stretch(stretches: np.ndarray) -> Optional[float]:
