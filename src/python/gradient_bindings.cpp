@@ -115,6 +115,11 @@ void bindGradients(py::module_& module) {
           },
           py::arg("observation"), "The nearest feature of copy 0 with the rates of the minimum distance.");
   module.def(
+      "find_fault",
+      [](const py::object& observation, int agents) { return ObservationReader().read(observation, agents); },
+      py::arg("observation"), py::arg("agents"),
+      "What makes an observation unusable, as a clause that names the field, or an empty string.");
+  module.def(
       "response_features",
       [](const py::object& observation, int agents, int leader, bool nearest_only) {
         ObservationReader reader;

@@ -4,10 +4,9 @@ import time
 
 from deformable_manipulation import _control
 from deformable_manipulation.control.decision import Decision
-from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.distance.features import Distances
 
 _STATUSES = sorted(Status)
 _KINDS = ("collision", "overstretch", "proximity")
@@ -53,7 +52,7 @@ class AssistantController:
         Raises:
             ValueError: the observation is not valid; the message names the field.
         """
-        fault = _wrong_type(observation)
+        fault = wrong_type(observation)
         if fault:
             raise ValueError(fault)
         self._native.take_reference(observation)
@@ -71,7 +70,7 @@ class AssistantController:
             :class:`~.decision.Decision`
         """
         started = time.perf_counter()
-        fault = _wrong_type(observation)
+        fault = wrong_type(observation)
         if fault:
             self._last = self.wait(fault)
             return self._last
@@ -106,15 +105,6 @@ class AssistantController:
         return Decision(
             status, text, self._native.enabled, *fields, *slacks, solve_time, computation_time
         )
-
-
-def _wrong_type(observation):
-    if not isinstance(observation, Observation):
-        return f"it got {type(observation).__name__}, not an Observation"
-    distances = observation.distances
-    if not isinstance(distances, Distances):
-        return f"distances of the state is {type(distances).__name__}, expected Distances"
-    return ""
 
 
 def _relaxation(slacks):

@@ -5,6 +5,7 @@ from typing import Optional
 
 import numpy as np
 
+from deformable_manipulation import _control
 from deformable_manipulation.distance.features import Distances
 
 
@@ -25,3 +26,26 @@ class Observation:
     distances: Distances  # of all C copies
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
+
+
+def find_fault(observation, agents):
+    """What makes an observation unusable.
+
+    Args:
+        observation: the :class:`Observation` to check.
+        agents: number of agents A that it must have.
+
+    Returns:
+        A clause that names the field, or an empty string for a sound observation.
+    """
+    return wrong_type(observation) or _control.find_fault(observation, agents)
+
+
+def wrong_type(observation):
+    """A clause if it is no Observation with Distances; the C++ core checks what is in them."""
+    if not isinstance(observation, Observation):
+        return f"it got {type(observation).__name__}, not an Observation"
+    distances = observation.distances
+    if not isinstance(distances, Distances):
+        return f"distances of the state is {type(distances).__name__}, expected Distances"
+    return ""
