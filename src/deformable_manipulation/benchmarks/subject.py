@@ -51,4 +51,8 @@ SUBJECTS: Dict[str, Subject] = {
         "deformable_manipulation.benchmarks.cycle",
         ("numpy",),
     ),
+    "loop": Subject(
+        "the nodes in real time: from a state to its commands, processor time and memory",
+        "deformable_manipulation.benchmarks.loop",
+    ),
 }

@@ -1,114 +1,101 @@
-"""Random smooth paths of a leader, for runs by the hundred."""
+"""Random smooth paths of a leader close over obstacles."""
 
-from dataclasses import dataclass
-from typing import Callable, Tuple
+from typing import Callable, List
 
 import numpy as np
 
 from deformable_manipulation.leader import LeaderPath
-from deformable_manipulation.scenario.spec import Vector, Waypoint
+from deformable_manipulation.scenario.spec import Waypoint
 
-_PATHS = 50  # tried before giving up
-_PLACES = 200  # tried for one waypoint
-_SLOWEST = 0.25  # of the top speed, mean over a leg
-_TIMES_PER_LEG = 20  # at which clearance is asked for
+# Mean speed of a piece in multiples of the speed allowed: from rest to rest the peak is 15/8 of it.
+_PACE = (0.3, 0.53)
+_REST = 12.0  # s, at the end: time to see whether the assistants come back
+_APPROACH = 2.0  # s, at rest at the start
+_NEAR = 0.3  # m: a place is near the obstacles up to this much farther than the clearance
+_SHARE_NEAR = 0.85  # of the waypoints
+_CANDIDATES = 256  # places from which a near one is chosen
+_DRAWS = 10  # of the next place, until one is found that leaves time for the way back
+_SAMPLES = 400  # points of a path at which its clearance and speed are looked at
+_ATTEMPTS = 30
 
 
-@dataclass(frozen=True)
-class PathLimits:
-    """Where a leader goes and how fast.
+class NoPath(RuntimeError):
+    """No path was found that is short enough and keeps the leader's grip clear."""
 
-    The path begins and ends at rest where the leader starts, and stays within a box.
+
+def random_path(
+    random: np.random.Generator,
+    low: np.ndarray,
+    high: np.ndarray,
+    speed: float,
+    duration: float,
+    clearance: Callable[[np.ndarray], np.ndarray],
+    keep: float,
+) -> List[Waypoint]:
+    """Waypoints of a path that goes from place to place near the obstacles, and back to rest.
+
+    :param low, high: (3,) corners of the box that the places are in [m], relative to the leader's
+        start at the origin.
+    :param speed: that no component of the leader's velocity exceeds [m/s].
+    :param duration: of the whole path [s], the rest at both ends included.
+    :param clearance: distances (N,) [m] of leader positions (N, 3), relative to the start, from
+        all obstacles.
+    :param keep: clearance that the leader's grip keeps [m].
+
+    Raises NoPath.
     """
-
-    lower: Vector  # m, corners of the box, relative to the leader's start
-    upper: Vector
-    top_speed: float  # m/s, no component is ever faster
-    travel: float  # s, in which new places are chosen; the way back comes on top
-    rest: float = 8.0  # s at rest at the end
-
-    def __post_init__(self):
-        lower, upper = np.asarray(self.lower, dtype=float), np.asarray(self.upper, dtype=float)
-        if not (
-            lower.shape == upper.shape == (3,)
-            and np.isfinite([lower, upper]).all()
-            and ((lower <= 0.0) & (upper >= 0.0)).all()
-            and (lower < upper).any()
-        ):
-            raise ValueError(
-                f"lower {self.lower}, upper {self.upper}: allowed are three finite numbers each, "
-                "the start (0, 0, 0) in between, and some room"
-            )
-        for name in ("top_speed", "travel", "rest"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise ValueError(f"{name}: {getattr(self, name)}, allowed are positive numbers")
-
-
-def random_waypoints(
-    generator: np.random.Generator,
-    limits: PathLimits,
-    is_clear: Callable[[np.ndarray], bool],
-) -> Tuple[Waypoint, ...]:
-    """Waypoints through random places of the box; the same for the same state of the generator.
-
-    The mean speed of each leg is random, up to half the top speed, which :class:`LeaderPath` never
-    more than doubles.
-
-    Args:
-        generator: source of all chance.
-        limits: :class:`PathLimits`.
-        is_clear: whether the leader may be at all of the positions (N, 3) [m], relative to its
-            start.
-
-    Raises:
-        RuntimeError: no clear path was found; the box may be blocked.
-    """
-    for _ in range(_PATHS):
-        waypoints = _candidate(generator, limits, is_clear)
-        if waypoints is not None and is_clear(_positions(waypoints)):
+    times = np.linspace(0.0, duration, _SAMPLES)
+    for _ in range(_ATTEMPTS):
+        waypoints = _draw(random, low, high, speed, duration, clearance, keep)
+        path = LeaderPath(waypoints)
+        fastest = np.abs(path.velocity(times)).max()
+        if fastest <= speed and clearance(path.position(times)).min() >= keep:
             return waypoints
-    raise RuntimeError(f"no clear path within {limits} in {_PATHS} attempts")
-
-
-def _candidate(generator, limits, is_clear):
-    """Waypoints whose straight legs are clear, or None where the leader got stuck."""
-    lower, upper = np.asarray(limits.lower), np.asarray(limits.upper)
-    time, here = 0.0, np.zeros(3)
-    waypoints = [Waypoint(time, tuple(here.tolist()))]
-    while time < limits.travel:
-        there = _reachable(lambda: generator.uniform(lower, upper), here, is_clear)
-        if there is None:
-            return None
-        time, here = time + _leg_time(generator, limits, there - here), there
-        waypoints.append(Waypoint(time, tuple(here.tolist())))
-    home = np.zeros(3)
-    if not is_clear(np.linspace(here, home, _TIMES_PER_LEG)):
-        return None
-    time += _leg_time(generator, limits, here)
-    waypoints.append(Waypoint(time, tuple(home.tolist())))
-    return tuple(waypoints) + (Waypoint(time + limits.rest, waypoints[-1].position),)
-
-
-def _reachable(draw, here, is_clear):
-    for _ in range(_PLACES):
-        there = draw()
-        if is_clear(np.linspace(here, there, _TIMES_PER_LEG)):
-            return there
-    return None
-
-
-def _leg_time(generator, limits, change):
-    """s, at least one, for a leg at a random mean speed."""
-    fraction = generator.uniform(_SLOWEST, 1.0)
-    return max(1.0, 2.0 * np.abs(change).max() / (fraction * limits.top_speed))
-
-
-def _positions(waypoints):
-    path = LeaderPath(waypoints)
-    times = np.concatenate(
-        [
-            np.linspace(before.time, after.time, _TIMES_PER_LEG)
-            for before, after in zip(waypoints, waypoints[1:])
-        ]
+    raise NoPath(
+        f"none of {_ATTEMPTS} random paths keeps the leader {keep:g} m clear of the obstacles"
     )
-    return path.position(times)
+
+
+def _draw(random, low, high, speed, duration, clearance, keep) -> List[Waypoint]:
+    """Waypoints that a pace within the speed reaches in time for the way back."""
+    home = np.zeros(3)
+    waypoints = [Waypoint(0.0, tuple(home)), Waypoint(_APPROACH, tuple(home))]
+    time, place = _APPROACH, home
+    slowest_return = _PACE[1] * speed
+
+    def next_waypoint():
+        for _ in range(_DRAWS):
+            target = _place(random, low, high, clearance, keep)
+            arrival = time + _travel(place, target, speed * random.uniform(*_PACE))
+            if arrival + _travel(target, home, slowest_return) + _REST <= duration:
+                return arrival, target
+        return None
+
+    found = next_waypoint()
+    if found is None:
+        raise NoPath(
+            f"{duration:g} s are too short for a path out and back at {speed:g} m/s with "
+            f"{_APPROACH + _REST:g} s of rest"
+        )
+    while found is not None:
+        time, place = found
+        waypoints.append(Waypoint(time, tuple(place)))
+        found = next_waypoint()
+    waypoints.append(Waypoint(time + _travel(place, home, slowest_return), tuple(home)))
+    return [Waypoint(float(w.time), tuple(map(float, w.position))) for w in waypoints]
+
+
+def _place(random, low, high, clearance, keep) -> np.ndarray:
+    """A place in the box, mostly one that is near the obstacles."""
+    candidates = random.uniform(low, high, (_CANDIDATES, 3))
+    if random.uniform() < _SHARE_NEAR:
+        distances = clearance(candidates)
+        near = candidates[(distances >= keep) & (distances <= keep + _NEAR)]
+        if len(near):
+            return near[0]
+    return candidates[0]
+
+
+def _travel(start, end, pace) -> float:
+    """Time [s] between two places at a mean speed of the fastest component."""
+    return max(float(np.abs(end - start).max()) / pace, 1.0)
