@@ -28,6 +28,7 @@ class ClosedLoop:
         self._simulation = make_simulation(scenario)
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
+        self._leader_index = scenario.leader_index
         self._controllers = {
             index: AssistantController(scenario, scenario.agents[index].name, safety)
             for index in scenario.assistants
@@ -61,7 +62,7 @@ class ClosedLoop:
         decisions = {
             index: controller.update(observation) for index, controller in self._controllers.items()
         }
-        leader = self._scenario.leader_index
+        leader = self._leader_index
         leader_velocity = self._leader.update(observation.time, observation.positions[leader])
         decided = time.perf_counter()
         velocities = simulation.velocities()

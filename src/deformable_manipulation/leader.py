@@ -1,6 +1,7 @@
 """The leader's scripted motion."""
 
 import math
+from bisect import bisect_right
 
 import numpy as np
 
@@ -37,41 +38,39 @@ class LeaderPath:
                 f"leader.waypoints[{late}].time: {self._times[late]}, allowed is more than the "
                 f"time of the waypoint before, {self._times[late - 1]}"
             )
-        self._velocities = _waypoint_velocities(self._times, self._positions)
+        self._coefficients = _coefficients(self._times, self._positions)
+        self._starts = self._times[:-1].tolist() or [float(self._times[0])]
+        self._durations = np.diff(self._times).tolist() or [1.0]
+        self._end = float(self._times[-1])
+        self._polynomials = self._coefficients.transpose(0, 2, 1).tolist()  # per piece and axis
+
+    def at(self, t):
+        """Position [m] at one time [s] as three numbers, much quicker than :meth:`position`."""
+        t = min(max(t, self._starts[0]), self._end)
+        i = bisect_right(self._starts, t) - 1
+        s = (t - self._starts[i]) / self._durations[i]
+        return [
+            ((((c5 * s + c4) * s + c3) * s + c2) * s + c1) * s + c0
+            for c0, c1, c2, c3, c4, c5 in self._polynomials[i]
+        ]
 
     def position(self, t):
         """Position [m] at the times ``t`` [s]; shape ``t.shape + (3,)``."""
-        s, duration, start, change, v0, v1 = self._piece(t)
-        s2 = s * s
-        # Quintic Hermite polynomials of zero end accelerations, in s from 0 to 1.
-        return (
-            start
-            + change * s * s2 * (10.0 - 15.0 * s + 6.0 * s2)
-            + duration * v0 * s * (1.0 - s2 * (6.0 - 8.0 * s + 3.0 * s2))
-            - duration * v1 * s * s2 * (4.0 - 7.0 * s + 3.0 * s2)
-        )
+        s, i = self._piece(t)
+        return np.einsum("...k,...kj->...j", s[..., None] ** np.arange(6), self._coefficients[i])
 
     def velocity(self, t):
         """Velocity [m/s] at the times ``t`` [s]; shape ``t.shape + (3,)``."""
-        s, duration, _, change, v0, v1 = self._piece(t)
-        s2 = s * s
-        return (
-            change / duration * 30.0 * s2 * (1.0 - s) ** 2
-            + v0 * (1.0 - s2 * (18.0 - 32.0 * s + 15.0 * s2))
-            - v1 * s2 * (12.0 - 28.0 * s + 15.0 * s2)
-        )
+        s, i = self._piece(t)
+        slopes = np.arange(1, 6) * s[..., None] ** np.arange(5)
+        rates = np.einsum("...k,...kj->...j", slopes, self._coefficients[i, 1:])
+        return rates / np.array(self._durations)[i][..., None]
 
     def _piece(self, t):
-        """The piece that each time is in: s, duration, start, change, velocities at its ends."""
+        """How far each time is in its piece, from 0 to 1, and the number of that piece."""
         t = np.clip(np.asarray(t, dtype=float), self._times[0], self._times[-1])
-        if len(self._times) == 1:
-            zero = np.zeros(t.shape + (3,))
-            return np.zeros(t.shape + (1,)), 1.0, zero + self._positions[0], zero, zero, zero
-        i = np.clip(np.searchsorted(self._times, t, side="right") - 1, 0, len(self._times) - 2)
-        duration = (self._times[i + 1] - self._times[i])[..., None]
-        s = (t - self._times[i])[..., None] / duration
-        change = self._positions[i + 1] - self._positions[i]
-        return s, duration, self._positions[i], change, self._velocities[i], self._velocities[i + 1]
+        i = np.maximum(np.searchsorted(self._starts, t, side="right") - 1, 0)
+        return (t - np.array(self._starts)[i]) / np.array(self._durations)[i], i
 
 
 def _positions(waypoints):
@@ -82,6 +81,27 @@ def _positions(waypoints):
                 "numbers [m]"
             )
     return np.array([waypoint.position for waypoint in waypoints], dtype=float)
+
+
+def _coefficients(times, positions):
+    """(pieces, 6, 3) m, of the powers of s: quintics (Hermite) of zero end accelerations."""
+    if len(times) == 1:
+        return np.concatenate((positions, np.zeros((5, 3))))[None]
+    duration = np.diff(times)[:, None]
+    start, change = positions[:-1], np.diff(positions, axis=0)
+    velocities = _waypoint_velocities(times, positions)
+    v0, v1 = duration * velocities[:-1], duration * velocities[1:]
+    return np.stack(
+        (
+            start,
+            v0,
+            np.zeros_like(start),
+            10.0 * change - 6.0 * v0 - 4.0 * v1,
+            -15.0 * change + 8.0 * v0 + 7.0 * v1,
+            6.0 * change - 3.0 * v0 - 3.0 * v1,
+        ),
+        axis=1,
+    )
 
 
 def _waypoint_velocities(times, positions):
@@ -114,7 +134,7 @@ class LeaderController:
 
     def __init__(self, scenario):
         self._path = LeaderPath(scenario.leader.waypoints)
-        self._start = np.array(scenario.agents[scenario.leader_index].start, dtype=float)
+        self._start = [float(value) for value in scenario.agents[scenario.leader_index].start]
         self._cycle_time = scenario.cycle_time
         self._max_return = scenario.controller.max_velocity
         self.reset()
@@ -137,7 +157,7 @@ class LeaderController:
             Zero for a time or position that is not finite.
         """
         position = np.asarray(position, dtype=float)
-        if not (math.isfinite(time) and np.isfinite(position).all()):
+        if not all(map(math.isfinite, (time, *position.tolist()))):
             self._velocity = np.zeros(3)
             return self._velocity
         if self._time is not None and time < self._time - 1.0:
@@ -149,6 +169,15 @@ class LeaderController:
 
     def _command(self, time, position):
         dt = self._cycle_time
-        begin, end = self._start + self._path.position(time + dt * np.array([1.0, 2.0]))
-        back = (begin - (position + dt * self._velocity)) / dt
-        return (end - begin) / dt + np.clip(back, -self._max_return, self._max_return)
+        limit = self._max_return
+        velocity = []
+        for begin, end, start, x, v in zip(
+            self._path.at(time + dt),
+            self._path.at(time + 2.0 * dt),
+            self._start,
+            position.tolist(),
+            self._velocity.tolist(),
+        ):
+            back = (start + begin - (x + dt * v)) / dt
+            velocity.append((end - begin) / dt + min(max(back, -limit), limit))
+        return np.array(velocity)

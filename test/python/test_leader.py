@@ -80,6 +80,12 @@ def test_shapes(path):
     np.testing.assert_array_equal(single.velocity(1.0), np.zeros(3))
 
 
+def test_a_single_time_gives_the_same(path):
+    times = np.linspace(-1.0, 8.0, 50).tolist() + [waypoint.time for waypoint in WAYPOINTS]
+    np.testing.assert_allclose([path.at(t) for t in times], path.position(times), atol=1e-15)
+    assert LeaderPath(WAYPOINTS[1:2]).at(9.0) == list(WAYPOINTS[1].position)
+
+
 values = st.floats(-2.0, 2.0)
 
 

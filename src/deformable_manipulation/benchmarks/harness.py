@@ -91,7 +91,7 @@ def measure_each(
     seconds: List[float] = []
     for call in calls:
         call()
-    with _no_garbage_collection():
+    with no_garbage_collection():
         for _ in range(rounds):
             for call in calls:
                 start = clock()
@@ -113,7 +113,7 @@ def _inner_loops(operation, prepare, least_time: float, clock: Clock) -> int:
 
 def _once(operation, state, inner: int, clock: Clock) -> float:
     loop = range(inner)
-    with _no_garbage_collection():
+    with no_garbage_collection():
         start = clock()
         for _ in loop:
             operation(state)
@@ -121,7 +121,7 @@ def _once(operation, state, inner: int, clock: Clock) -> float:
 
 
 @contextlib.contextmanager
-def _no_garbage_collection() -> Iterator[None]:
+def no_garbage_collection() -> Iterator[None]:
     """The collector would run at some time in some repetition."""
     enabled = gc.isenabled()
     gc.disable()

@@ -1,12 +1,12 @@
-"""The subject ``qp``: the safety filter, beside its solver directly and through qpsolvers."""
+"""The subject ``qp``: the safety filter and its solver, beside others on the same programs."""
 
-from functools import partial
 from typing import Callable, List, Tuple
 
 import numpy as np
 import qpsolvers
-from quadprog import solve_qp
+import quadprog
 
+from deformable_manipulation._control import SafetyFilter, solve_qp
 from deformable_manipulation.benchmarks.harness import measure_each
 from deformable_manipulation.benchmarks.qp_problems import (
     FEASIBLE,
@@ -16,8 +16,13 @@ from deformable_manipulation.benchmarks.qp_problems import (
 )
 from deformable_manipulation.benchmarks.subject import Request
 from deformable_manipulation.benchmarks.table import Column, Table
-from deformable_manipulation.control.safety_filter import SafetyFilter
+from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.control.status import Status
+
+try:
+    import daqp
+except ImportError:  # not needed, only compared with
+    daqp = None
 
 ROWS = (5, 10, 20, 30)
 PROBLEMS = 200  # different ones, for each number of rows
@@ -33,10 +38,10 @@ COLUMNS = (
     Column("solved", "solved [%]", ".0f"),
 )
 NOTES = (
-    "safety filter: from rows and bounds to a checked velocity, with the relaxed program where the "
-    "rows cannot all hold",
-    "quadprog, qpsolvers: from matrices at hand to a solution, unchecked; hard: three variables, "
-    "rows as they are; soft: six variables, one slack per tier",
+    "safety filter: from rows and bounds at hand to a checked velocity, always with the relaxed "
+    "program; with quadprog: the same program by that solver",
+    "native, quadprog, qpsolvers (with quadprog), daqp: from matrices at hand to a solution, "
+    "unchecked; hard: three variables, rows as they are; soft: six variables, one slack per tier",
     "infeasible: at least two rows contradict each other; the solvers then have no solution of the "
     "hard program",
 )
@@ -70,26 +75,57 @@ def _row(name: str, calls: List[Call], request: Request) -> dict:
 
 
 def _candidates(problems) -> List[Tuple[str, List[Call]]]:
-    safety_filter = SafetyFilter(np.ones(3))
-    hard = [problem.hard() for problem in problems]
-    soft = [problem.soft() for problem in problems]
-    return [
-        ("safety filter", [partial(_filtered, safety_filter, problem) for problem in problems]),
-        ("quadprog, hard", [partial(_with_quadprog, program) for program in hard]),
-        ("quadprog, soft", [partial(_with_quadprog, program) for program in soft]),
-        ("qpsolvers, hard", [partial(_with_qpsolvers, program) for program in hard]),
-        ("qpsolvers, soft", [partial(_with_qpsolvers, program) for program in soft]),
+    native = SafetyFilter(np.ones(3))
+    reference = SafetyFilter(np.ones(3), solver=find_solver("quadprog"))
+    candidates = [
+        ("safety filter", [_filtering(native, problem) for problem in problems]),
+        ("safety filter with quadprog", [_filtering(reference, problem) for problem in problems]),
     ]
+    solvers = [
+        ("native", _with_native),
+        ("quadprog", _with_quadprog),
+        ("qpsolvers", _with_qpsolvers),
+    ]
+    if daqp is not None:
+        solvers.append(("daqp", _with_daqp))
+    for name, solve in solvers:
+        for form, programs in (
+            ("hard", [problem.hard() for problem in problems]),
+            ("soft", [problem.soft() for problem in problems]),
+        ):
+            candidates.append((f"{name}, {form}", [_solving(solve, each) for each in programs]))
+    return candidates
 
 
-def _filtered(safety_filter: SafetyFilter, problem) -> bool:
-    result = safety_filter.filter(problem.nominal, problem.rows, problem.lower, problem.upper)
-    return result.status is not Status.FAILED
+def _filtering(safety_filter: SafetyFilter, problem) -> Call:
+    rows = problem.rows()
+    given = (problem.nominal, rows, problem.lower, problem.upper)
+    return lambda: safety_filter.filter(*given)[1] != Status.FAILED
+
+
+def _solving(solve: Callable[[Program], bool], program: Program) -> Call:
+    return lambda: solve(program)
+
+
+def _with_native(program: Program) -> bool:
+    solution = solve_qp(
+        program.hessian.diagonal(), program.linear, program.constraints, program.limits
+    )
+    return solution is not None
+
+
+def _with_daqp(program: Program) -> bool:
+    beyond = np.full(len(program.limits), 1e30)
+    kinds = np.zeros(len(program.limits), dtype=np.int32)
+    solution = daqp.solve(
+        program.hessian, program.linear, program.constraints, beyond, program.limits, kinds
+    )
+    return solution[2] > 0
 
 
 def _with_quadprog(program: Program) -> bool:
     try:
-        solve_qp(program.hessian, -program.linear, program.constraints.T, program.limits)
+        quadprog.solve_qp(program.hessian, -program.linear, program.constraints.T, program.limits)
     except ValueError:  # inconsistent constraints
         return False
     return True

@@ -5,12 +5,13 @@ from typing import List, Sequence
 
 import numpy as np
 
-from deformable_manipulation.control.barriers import Rows, Tier
+from deformable_manipulation._control import ConstraintRows, Tier
 
 FEASIBLE = "feasible"
 INFEASIBLE = "infeasible"
 SEED = 20  # any
 MAX_VELOCITY = 0.15  # m/s
+TIERS = (Tier.COLLISION, Tier.OVERSTRETCH, Tier.PROXIMITY)
 SLACK_COSTS = (1e6, 1e4, 1e2)  # times the cost of u_max, per tier
 
 
@@ -29,9 +30,18 @@ class Problem:
     """What a safety filter with equal weights is given."""
 
     nominal: np.ndarray
-    rows: Sequence[Rows]
+    tiers: Sequence[int]  # of each row, its place in TIERS
+    coefficients: np.ndarray
+    limits: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
+
+    def rows(self) -> ConstraintRows:
+        """The rows as the safety filter takes them."""
+        rows = ConstraintRows(len(self.nominal))
+        for tier, coefficients, limit in zip(self.tiers, self.coefficients, self.limits):
+            rows.add(TIERS[tier], coefficients, limit)
+        return rows
 
     def hard(self) -> Program:
         """All rows and bounds as they are."""
@@ -39,22 +49,21 @@ class Problem:
         return Program(
             np.eye(3),
             -self.nominal,
-            np.concatenate([part.coefficients for part in self.rows] + [bounds]),
-            np.concatenate([part.bounds for part in self.rows] + [self.lower, -self.upper]),
+            np.concatenate([self.coefficients, bounds]),
+            np.concatenate([self.limits, self.lower, -self.upper]),
         )
 
     def soft(self) -> Program:
         """Rows that may be missed by a slack per tier, at a linear cost."""
         hard = self.hard()
-        owners = np.concatenate([np.full(len(part.bounds), part.tier) for part in self.rows])
-        slack = np.zeros((len(hard.limits), len(Tier)))
-        slack[np.arange(len(owners)), owners.astype(int)] = 1.0
-        positive = np.hstack([np.zeros((len(Tier), 3)), np.eye(len(Tier))])
+        slack = np.zeros((len(hard.limits), len(TIERS)))
+        slack[np.arange(len(self.tiers)), self.tiers] = 1.0
+        positive = np.hstack([np.zeros((len(TIERS), 3)), np.eye(len(TIERS))])
         return Program(
-            np.eye(3 + len(Tier)),
+            np.eye(3 + len(TIERS)),
             np.concatenate([hard.linear, MAX_VELOCITY * np.array(SLACK_COSTS)]),
             np.vstack([np.hstack([hard.constraints, slack]), positive]),
-            np.concatenate([hard.limits, np.zeros(len(Tier))]),
+            np.concatenate([hard.limits, np.zeros(len(TIERS))]),
         )
 
 
@@ -78,13 +87,9 @@ def _problem(kind: str, count: int, generator: np.random.Generator) -> Problem:
     if kind == INFEASIBLE:
         coefficients[1] = -coefficients[0]
         bounds[1] = -bounds[0] + 0.02
-    parts = [
-        Rows(Tier.COLLISION, coefficients[:-2], bounds[:-2]),
-        Rows(Tier.OVERSTRETCH, coefficients[-2:-1], bounds[-2:-1]),
-        Rows(Tier.PROXIMITY, coefficients[-1:], bounds[-1:]),
-    ]
+    tiers = [0] * (count - 2) + [1, 2]
     limit = np.full(3, MAX_VELOCITY)
-    return Problem(nominal, parts, -limit, limit)
+    return Problem(nominal, tiers, coefficients, bounds, -limit, limit)
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

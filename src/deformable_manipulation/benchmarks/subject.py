@@ -44,7 +44,12 @@ SUBJECTS: Dict[str, Subject] = {
     "qp": Subject(
         "the safety filter's quadratic program",
         "deformable_manipulation.benchmarks.qp",
-        ("numpy", "quadprog", "qpsolvers"),
+        ("numpy", "quadprog", "qpsolvers", "daqp"),
+    ),
+    "cycle": Subject(
+        "the parts of a controller cycle, in one process without ROS",
+        "deformable_manipulation.benchmarks.cycle",
+        ("numpy",),
     ),
     "loop": Subject(
         "the nodes in real time: from a state to its commands, processor time and memory",

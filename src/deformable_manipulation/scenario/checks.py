@@ -35,6 +35,7 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
     rate = controller.rate
     slopes = [
         (("collision", "alpha"), controller.collision.alpha),
+        (("collision", "anticipation"), controller.collision.anticipation),
         (("overstretch", "alpha"), controller.overstretch.alpha),
         (("proximity", "alpha"), controller.proximity.alpha),
         (("gain",), (controller.gain,)),

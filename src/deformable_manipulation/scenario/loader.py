@@ -4,12 +4,12 @@ import dataclasses
 from pathlib import Path
 from typing import Any, Dict, Iterable, Mapping, Union
 
-from deformable_manipulation.scenario import checks
+from deformable_manipulation.scenario import checks, controller, simulation
 from deformable_manipulation.scenario.agents import read_agents
-from deformable_manipulation.scenario.controller import CONTROLLER
 from deformable_manipulation.scenario.document import read_document
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
+from deformable_manipulation.scenario.formulation import check_formulation
 from deformable_manipulation.scenario.names import FRAME, ONE_LINE
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import read_obstacles
@@ -21,7 +21,6 @@ from deformable_manipulation.scenario.readers import (
     Section,
     Unreadable,
 )
-from deformable_manipulation.scenario.simulation import SIMULATION, for_object
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.scenario.waypoints import LEADER_PATH
 
@@ -37,8 +36,8 @@ SCENARIO = Section(
         "agents": _LATER,
         "obstacles": Custom(read_obstacles, "a list of obstacles"),
         "leader": LEADER_PATH,
-        "controller": CONTROLLER,
-        "simulation": SIMULATION,
+        "controller": controller.CONTROLLER,
+        "simulation": simulation.SIMULATION,
     },
     defaults={"obstacles": ()},
 )
@@ -106,9 +105,17 @@ def _read_sections(root: Node, default_name: str) -> Dict[str, Any]:
             parts["agents"] = read_agents(parts["agents"], parts.get("object"))
         except Unreadable:
             del parts["agents"]
-    if "object" in parts and "simulation" in parts:
-        parts["simulation"] = for_object(root.report, parts["simulation"], parts["object"])
+    if "object" in parts:
+        _fill_in(root.report, parts)
     return parts
+
+
+def _fill_in(report: Report, parts: Dict[str, Any]) -> None:
+    """What the sections leave to the object."""
+    if "simulation" in parts:
+        parts["simulation"] = simulation.for_object(report, parts["simulation"], parts["object"])
+    if "controller" in parts:
+        parts["controller"] = controller.for_object(parts["controller"], parts["object"])
 
 
 def _check_together(report: Report, parts: Dict[str, Any]) -> None:
@@ -120,6 +127,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
 
     check(checks.check_loop, "controller")
     check(checks.check_jacobian, "object", "controller")
+    check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(checks.check_starts, "object", "agents")
     check(checks.check_limits, "object", "agents", "controller")

@@ -147,6 +147,9 @@ class CollisionSpec:
 
     offset: float  # m, distance to keep, from surface to surface
     alpha: Tuple[float, float] = (1.0, 5.0)  # 1/s, slopes of alpha(h) for h >= 0 and h < 0
+    anticipation: Tuple[float, float] = (0.4, 5.0)  # 1/s, of the softer row beside each
+    margin: float = 0.002  # m, beyond the offset, that the rows keep
+    speed_margin: float = 0.0  # s, more of it per m/s of the leader's speed
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
     backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
@@ -158,6 +161,7 @@ class OverstretchSpec:
 
     max_distance: Optional[float] = None  # m between held points; None: a fraction of their
     fraction: float = 0.99  # free length
+    margin: float = 0.005  # m, by which the rows stay within it
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
 
 
@@ -166,6 +170,7 @@ class ProximitySpec:
     """Barrier that keeps two agents apart (paper, eq. 11)."""
 
     min_distance: Optional[float] = None  # m between held points; None: 10 % of the free length
+    margin: float = 0.0  # m, by which the rows stay beyond it
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
 
 
@@ -176,16 +181,18 @@ class ControllerSpec:
     collision: CollisionSpec
     overstretch: OverstretchSpec = OverstretchSpec()
     proximity: ProximitySpec = ProximitySpec()
+    formulation: str = "full"  # "full", or "paper": its equations as they are
+    priority: Tuple[str, str, str] = ("collision", "overstretch", "proximity")  # last yields first
     rate: float = 100.0  # Hz, cycles per second
     gain: float = 1.0  # 1/s, k_p
     weights: Vector = (1.0, 1.0, 1.0)  # gamma, cost of departing from the nominal velocity per axis
     max_velocity: float = 0.15  # m/s, bound on every component
     max_acceleration: float = 1.0  # m/s^2, bound on every component
     perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
-    jacobian: str = "perturbed_copies"  # where gradients come from; "equilibrium": exact ones
+    jacobian: str = "equilibrium"  # exact gradients where known; or "perturbed_copies"
     differences: str = "central"  # "central": copies on both sides; "forward": on one (the paper)
     feedforward: bool = True  # leader's velocity in the nominal law and in the rows
-    solver: str = "quadprog"  # of qpsolvers
+    solver: str = "native"  # of the quadratic program; others: those of qpsolvers
     timeout: float = 0.2  # s, age at which an input counts as lost
 
 

@@ -89,6 +89,14 @@ def test_qp_end_to_end(tmp_path, capsys):
     assert "safety filter" in capsys.readouterr().out
 
 
+def test_cycle_end_to_end(tmp_path):
+    assert main(["cycle", "--quick", "--output", str(tmp_path)]) == 0
+    rows = json.loads((tmp_path / "cycle.json").read_text())["tables"]["parts"]["rows"]
+    times = {(row["formulation"], row["part"]): row["median_us"] for row in rows}
+    for formulation in ("full", "paper"):
+        assert 0.0 < times[formulation, "controller"] < times[formulation, "whole cycle"]
+
+
 def test_the_page_has_a_place_for_every_subject():
     text = DOCUMENT.read_text(encoding="utf-8")
     for subject in SUBJECTS:

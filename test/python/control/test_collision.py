@@ -2,23 +2,34 @@ import control_builders as build
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.barriers import Situation
-from deformable_manipulation.control.class_k import PiecewiseLinearClassK
-from deformable_manipulation.control.collision import CollisionBarrier
-from deformable_manipulation.control.differences import Differences
-from deformable_manipulation.control.features import Features
+from deformable_manipulation._control import (
+    CollisionBarrier,
+    Differences,
+    Features,
+    Formulation,
+    PiecewiseLinearClassK,
+    Situation,
+    Tier,
+)
 
 SLOPES, OFFSET = (1.0, 5.0), 0.05
 NORMAL = np.array([2.0, -1.0, 2.0]) / 3.0
 
 
-def situation(velocities, leader_velocity, delay=0.0):
-    return Situation(
-        positions=np.zeros_like(velocities),
-        velocities=velocities,
-        leader_velocity=leader_velocity,
-        delay=delay,
-    )
+BAND = 1e6  # m: no row is loosened
+
+
+def situation(velocities, delay=0.0):
+    return Situation(np.zeros_like(velocities), velocities, leader=0, delay=delay)
+
+
+def formulation(**settings):
+    """All that the rows of the safety tier have, one row per feature."""
+    result = Formulation()
+    result.anticipation = False
+    for name, value in settings.items():
+        setattr(result, name, value)
+    return result
 
 
 def setting(assistants, seed):
@@ -30,12 +41,18 @@ def setting(assistants, seed):
     observation = build.observe(0.0, positions, body, obstacle)
     differences = Differences(assistants + 1, leader=0)
     differences.update(observation)
-    return body, obstacle, positions, velocities, differences.features(observation.distances)
+    return body, obstacle, positions, velocities, differences.features(observation)
 
 
-def barriers(assistants, **settings):
-    everybody = tuple(range(1, assistants + 1))
-    return [CollisionBarrier(i, everybody, OFFSET, SLOPES, **settings) for i in everybody]
+def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
+    everybody = list(range(1, assistants + 1))
+    return [
+        CollisionBarrier(
+            i, everybody, OFFSET, SLOPES, band=band, margin=margin, speed_margin=speed_margin,
+            formulation=formulation(**settings),
+        )
+        for i in everybody
+    ]
 
 
 def distance_later(seconds, vertex, body, obstacle, positions, velocities):
@@ -48,7 +65,7 @@ def distance_later(seconds, vertex, body, obstacle, positions, velocities):
 def test_rows_sum_to_the_whole_constraint(assistants, seed):
     """Sum of g . u - bound over the assistants is dh/dt + alpha(h), h moved in time."""
     body, obstacle, positions, velocities, features = setting(assistants, seed)
-    scene = situation(velocities, velocities[0])
+    scene = situation(velocities)
     total = 0.0
     for barrier, velocity in zip(barriers(assistants), velocities[1:]):
         rows = barrier.rows(features, scene)
@@ -62,20 +79,20 @@ def test_rows_sum_to_the_whole_constraint(assistants, seed):
             for sign in (-1.0, 1.0)
         ]
         rate = (ends[1] - ends[0]) / (2.0 * step)
-        alpha = PiecewiseLinearClassK(SLOPES)(features.distance[m] - OFFSET)
+        alpha = PiecewiseLinearClassK(*SLOPES)(features.distance[m] - OFFSET)
         assert total[m] == pytest.approx(rate + alpha, rel=1e-6, abs=1e-6)
 
 
 def test_distance_is_predicted_for_the_time_when_the_command_acts():
     body, obstacle, positions, velocities, features = setting(2, 3)
-    now = barriers(2)[0].rows(features, situation(velocities, velocities[0]))
+    now = barriers(2)[0].rows(features, situation(velocities))
     delay = 0.02
-    later = barriers(2)[0].rows(features, situation(velocities, velocities[0], delay))
+    later = barriers(2)[0].rows(features, situation(velocities, delay))
     moved = build.observe(0.0, positions + delay * velocities, body, obstacle.at(delay))
     differences = Differences(3, leader=0)
     differences.update(moved)
-    there = differences.features(moved.distances)
-    exact = barriers(2)[0].rows(there, situation(velocities, velocities[0]))
+    there = differences.features(moved)
+    exact = barriers(2)[0].rows(there, situation(velocities))
     assert abs(now.bounds[0] - exact.bounds[0]) > 1e-3
     np.testing.assert_allclose(later.bounds[0], exact.bounds[0], atol=1e-9)
 
@@ -89,18 +106,18 @@ def test_a_formation_along_the_obstacle_is_not_held_back():
     differences = Differences(3, leader=0)
     differences.update(observation)
     along = np.cross(NORMAL, (1.0, 0.0, 0.0))
-    scene = situation(np.tile(along, (3, 1)), along)
+    scene = situation(np.tile(along, (3, 1)))
     for barrier in barriers(2):
-        rows = barrier.rows(differences.features(observation.distances), scene)
+        rows = barrier.rows(differences.features(observation), scene)
         assert (rows.coefficients @ along >= rows.bounds - 1e-9).all()
 
 
-def test_without_feedforward_it_is_the_papers_row():
+def test_without_leader_velocity_and_shares_it_is_the_papers_row():
     _, _, _, velocities, features = setting(1, 1)
     still = Features(features.distance, features.normal, 0.0 * features.normal, features.gradients)
-    barrier = barriers(1, feedforward=False)[0]
-    rows = barrier.rows(still, situation(velocities, velocities[0]))
-    alpha = PiecewiseLinearClassK(SLOPES)(features.distance - OFFSET)
+    barrier = barriers(1, leader_velocity=False, shares=False)[0]
+    rows = barrier.rows(still, situation(velocities))
+    alpha = np.array([PiecewiseLinearClassK(*SLOPES)(d - OFFSET) for d in features.distance])
     np.testing.assert_array_equal(rows.coefficients, features.gradients[:, 1])
     np.testing.assert_allclose(rows.bounds, -alpha)
 
@@ -112,6 +129,43 @@ def test_a_feature_that_nobody_moves_is_shared_equally():
     features = Features(np.array([0.0]), normal, 0.0 * normal, gradients)
     leader = np.array([0.0, 0.0, -0.1])
     for barrier in barriers(2):
-        rows = barrier.rows(features, situation(np.zeros((3, 3)), leader))
+        rows = barrier.rows(features, situation(np.array([leader, [0, 0, 0], [0, 0, 0]])))
         np.testing.assert_array_equal(rows.coefficients, 0.0)
         np.testing.assert_allclose(rows.bounds, 0.5 * (0.1 + 5.0 * OFFSET))
+
+
+def one_feature(distances, leader=(0.0, 0.0, 0.0)):
+    """Level features above ground that assistant 1 raises half as fast as it rises, and a scene."""
+    count = len(distances)
+    normal = np.tile((0.0, 0.0, 1.0), (count, 1))
+    gradients = 0.5 * np.repeat(normal[:, None], 2, axis=1)
+    return Features(np.array(distances), normal, 0.0 * normal, gradients), situation(
+        np.array([leader, [0.0, 0.0, 0.0]])
+    )
+
+
+def test_rows_keep_their_margins_above_the_offset():
+    features, scene = one_feature([OFFSET + 0.01], leader=(0.1, 0.0, 0.0))
+    rows = barriers(1, margin=0.002, speed_margin=0.03)[0].rows(features, scene)
+    np.testing.assert_allclose(rows.bounds, -(0.01 - 0.002 - 0.003))
+
+
+def test_a_softer_row_asks_earlier():
+    features, scene = one_feature([OFFSET + 0.02])
+    barrier = CollisionBarrier(1, [1], OFFSET, SLOPES, (0.4, 5.0))
+    rows = barrier.rows(features, scene)
+    assert rows.tiers == [Tier.COLLISION, Tier.ANTICIPATION]
+    np.testing.assert_allclose(rows.bounds, [-0.02, -0.008])
+    np.testing.assert_array_equal(rows.coefficients[0], rows.coefficients[1])
+
+
+def test_rows_come_and_go_without_a_step():
+    """Towards the edge of the band it loosens steadily, until no velocity is beyond it."""
+    band, nearest, bounds = 0.1, OFFSET - 0.08, []
+    barrier = barriers(1, band=band)[0]
+    for beyond in np.linspace(0.0, band, 201):
+        bounds.append(barrier.rows(*one_feature([nearest, nearest + beyond])).bounds[1])
+    assert bounds[0] == pytest.approx(5.0 * 0.08)
+    assert bounds[-1] <= -0.5 * 0.15  # u_max against a gradient of one half
+    steps = np.diff(bounds)
+    assert (steps < 0.0).all() and np.abs(steps).max() < 0.01

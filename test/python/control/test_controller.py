@@ -6,7 +6,7 @@ import pytest
 
 from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.scenario.spec import CollisionSpec
+from deformable_manipulation.scenario.spec import CollisionSpec, OverstretchSpec, ProximitySpec
 
 DT = 0.01
 GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
@@ -252,12 +252,61 @@ def test_without_safety_the_nominal_velocity_passes_within_its_limits(scenario):
 
 
 def test_the_single_row_of_the_paper():
-    scenario = build.scenario(collision=CollisionSpec(offset=0.05, gradient="minimum"))
+    scenario = build.scenario(
+        formulation="paper", collision=CollisionSpec(offset=0.05, gradient="minimum")
+    )
     observation = observed(scenario, obstacle=GROUND)
     decision = AssistantController(scenario, "assistant_1").update(observation)
     assert decision.rows == 3
     copies, minimum = observation.displaced_agents == 1, observation.distances.minimum
     np.testing.assert_allclose(decision.jacobian, (minimum[copies] - minimum[0]) / 0.1)
+
+
+def papers(**settings):
+    collision = CollisionSpec(offset=0.05, margin=0.0, gradient="minimum")
+    return build.scenario(
+        formulation="paper", differences="forward", feedforward=False, collision=collision,
+        overstretch=OverstretchSpec(2.0, margin=0.0), **settings,
+    )
+
+
+def test_the_papers_nominal_law_and_bound():
+    """Eq. 2 and the velocity bound alone: no prediction, no leader's velocity, no acceleration."""
+    scenario = papers()
+    controller = AssistantController(scenario, "assistant_1")
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    first = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_allclose(first.nominal, [0.0, 0.5, 0.0], atol=1e-12)
+    np.testing.assert_allclose(first.command, [0.0, 0.15, 0.0], atol=1e-12)
+    moved = positions + [[0.0, 0.0, -0.001], [0.0, 0.0, 0.0]]
+    second = controller.update(observed(scenario, DT, moved))
+    np.testing.assert_allclose(second.nominal, second.error, atol=1e-12)
+
+
+def test_the_paper_has_no_answer_where_limits_contradict():
+    scenario = papers()
+    positions = starts(scenario) * [1.0, 1.0, 0.0]  # on the ground, the object in it
+    decision = AssistantController(scenario, "assistant_1").update(
+        observed(scenario, 0.0, positions, GROUND)
+    )
+    assert decision.status == Status.FAILED
+    np.testing.assert_array_equal(decision.command, 0.0)
+
+
+def test_the_users_priority_decides_which_limit_yields(scenario):
+    """Too near to a wall behind the assistant, and too near to the leader in front of it."""
+    wall = build.HalfSpace((0.0, -1.0, 0.0), -1.54)  # beyond y = 1.54
+    settings = dict(proximity=ProximitySpec(1.53), max_acceleration=15.0)
+    velocities = []
+    for first, second in (("collision", "proximity"), ("proximity", "collision")):
+        chosen = build.scenario(priority=(first, second, "overstretch"), **settings)
+        controller = AssistantController(chosen, "assistant_1")
+        decision = controller.update(observed(chosen, obstacle=wall))
+        assert decision.status == Status.RELAXED
+        assert getattr(decision, f"slack_{first}") == 0.0 < getattr(decision, f"slack_{second}")
+        velocities.append(decision.command[1])
+    # alpha: 5 times 12 mm with the margin, and 2 times 30 mm.
+    np.testing.assert_allclose(velocities, [-0.06, 0.06], atol=1e-6)
 
 
 def test_unknown_agents_are_refused(scenario):

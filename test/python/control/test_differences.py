@@ -4,7 +4,7 @@ import control_builders as build
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.differences import Differences
+from deformable_manipulation._control import Differences
 
 AGENTS = 3  # the first is the leader
 
@@ -43,7 +43,7 @@ def test_gradients_of_all_agents(setting, directions):
     displaced = np.repeat([-1, 1, 2], [1, len(directions), len(directions)])
     displacements = np.concatenate((np.zeros((1, 3)), directions, directions))
     observation = build.observe(0.0, positions, body, obstacle, (displaced, displacements))
-    features = taken_in(observation).features(observation.distances)
+    features = taken_in(observation).features(observation)
     exact = exact_gradients(body, observation.distances)
     assert len(features.distance) >= 1
     np.testing.assert_allclose(features.gradients, exact, atol=1e-11)
@@ -57,7 +57,9 @@ def test_a_feature_between_two_points_takes_its_material_point(setting):
         vertices=np.tile((1, 4, 0), (len(observation.distances.distance), 1)),
         weights=np.tile((0.25, 0.75, 0.0), (len(observation.distances.distance), 1)),
     )
-    features = taken_in(observation).features(distances)
+    features = taken_in(observation).features(
+        dataclasses.replace(observation, distances=distances)
+    )
     rate = 0.25 * body.sensitivities[:, 1] + 0.75 * body.sensitivities[:, 4]
     np.testing.assert_allclose(features.gradients[0], np.einsum("i,aij->aj", obstacle.normal, rate))
 
@@ -66,7 +68,7 @@ def test_minimum_agrees_where_the_nearest_feature_stays(setting):
     body, obstacle, positions = setting
     copies = build.axis_copies(AGENTS, size=1e-4)
     observation = build.observe(0.0, positions, body, obstacle, copies)
-    minimum = taken_in(observation).minimum(observation.distances)
+    minimum = taken_in(observation).minimum(observation)
     exact = exact_gradients(body, observation.distances)[:1]
     np.testing.assert_allclose(minimum.gradients, exact, atol=1e-9)
     np.testing.assert_array_equal(minimum.distance, observation.distances.distance[:1])
@@ -82,7 +84,7 @@ def test_copies_that_are_not_ready_hold_their_column(setting):
     ready[2] = False  # agent 1 along y
     second = build.observe(0.01, positions, other, obstacle, ready=ready)
     differences.update(second)
-    gradients = differences.features(second.distances).gradients
+    gradients = differences.features(second).gradients
     new, held = exact_gradients(other, second.distances), exact_gradients(body, second.distances)
     np.testing.assert_allclose(gradients[:, 1, [0, 2]], new[:, 1, [0, 2]], atol=1e-11)
     np.testing.assert_allclose(gradients[:, 1, 1], held[:, 1, 1], atol=1e-11)
@@ -109,7 +111,7 @@ def test_an_assistant_without_copies_counts_as_moving_with_the_leader(setting):
     only_own = displaced != 2
     copies = displaced[only_own], displacements[only_own]
     observation = build.observe(0.0, positions, body, obstacle, copies)
-    gradients = taken_in(observation).features(observation.distances).gradients
+    gradients = taken_in(observation).features(observation).gradients
     exact = exact_gradients(body, observation.distances)
     np.testing.assert_allclose(gradients[:, 1], exact[:, 1], atol=1e-11)
     np.testing.assert_array_equal(gradients[:, 2], 0.0)
@@ -121,7 +123,7 @@ def test_a_copy_that_is_hardly_displaced_changes_nothing(setting):
     displaced, displacements = build.axis_copies(AGENTS)
     observation = build.observe(0.0, positions, body, obstacle, (displaced, 1e-9 * displacements))
     differences = taken_in(observation)
-    gradients = differences.features(observation.distances).gradients
+    gradients = differences.features(observation).gradients
     assert not differences.known(1)
     np.testing.assert_array_equal(gradients[:, 1:], 0.0)
 
@@ -130,5 +132,5 @@ def test_no_obstacle_gives_no_feature(setting):
     body, _, positions = setting
     observation = build.observe(0.0, positions, body, None)
     differences = taken_in(observation)
-    assert differences.features(observation.distances).gradients.shape == (0, AGENTS, 3)
-    assert differences.minimum(observation.distances).gradients.shape == (0, AGENTS, 3)
+    assert differences.features(observation).gradients.shape == (0, AGENTS, 3)
+    assert differences.minimum(observation).gradients.shape == (0, AGENTS, 3)

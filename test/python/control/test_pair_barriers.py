@@ -1,23 +1,30 @@
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.barriers import Situation
-from deformable_manipulation.control.class_k import PiecewiseLinearClassK
-from deformable_manipulation.control.overstretch import OverstretchBarrier
-from deformable_manipulation.control.proximity import ProximityBarrier
+from deformable_manipulation._control import PairBarrier, PiecewiseLinearClassK, Situation
 
 SLOPES = (1.0, 2.0)
 LIMITS = np.array([1.3, 1.1, 0.9])
-BARRIERS = [OverstretchBarrier, ProximityBarrier]
+KINDS = ["overstretch", "proximity"]
 
 
-def situation(positions, leader_velocity=(0.0, 0.0, 0.0)):
-    return Situation(
-        positions=np.asarray(positions, dtype=float),
-        velocities=np.zeros_like(positions, dtype=float),
-        leader_velocity=np.asarray(leader_velocity, dtype=float),
-        delay=0.01,
-    )
+def situation(positions, leader_velocity=(0.0, 0.0, 0.0), others=0.0):
+    """Everybody else moves with a velocity of its own, which only the paper's rows look at."""
+    velocities = np.full_like(positions, others, dtype=float)
+    velocities[0] = leader_velocity
+    return Situation(positions, velocities, leader=0, delay=0.01)
+
+
+def barrier_of(kind, agent=1, limits=LIMITS, **settings):
+    return PairBarrier(kind, agent, 0, limits, SLOPES, **settings)
+
+
+def value(barrier, positions):
+    return np.array([barrier.value(positions, other) for other in (0, 2)])
+
+
+def gradient(barrier, positions, others=(0, 2)):
+    return np.array([barrier.gradient(positions, other) for other in others])
 
 
 @pytest.fixture(params=range(5))
@@ -25,75 +32,99 @@ def positions(request):
     return np.random.default_rng(request.param).normal(size=(3, 3))
 
 
-@pytest.mark.parametrize("barrier", BARRIERS)
-def test_gradient_by_differences(barrier, positions):
-    barrier = barrier(1, 0, LIMITS, SLOPES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_gradient_by_differences(kind, positions):
+    barrier = barrier_of(kind)
     step = 1e-6
     columns = []
     for axis in range(3):
         moved = [positions.copy(), positions.copy()]
         moved[0][1, axis] -= step
         moved[1][1, axis] += step
-        columns.append((barrier.value(moved[1]) - barrier.value(moved[0])) / (2.0 * step))
-    np.testing.assert_allclose(barrier.gradient(positions), np.transpose(columns), atol=1e-8)
+        columns.append((value(barrier, moved[1]) - value(barrier, moved[0])) / (2.0 * step))
+    np.testing.assert_allclose(gradient(barrier, positions), np.transpose(columns), atol=1e-8)
 
 
 def test_values_are_the_margins(positions):
     ranges = np.linalg.norm(positions[[0, 2]] - positions[1], axis=1)
     limits = LIMITS[[0, 2]]
-    overstretch = OverstretchBarrier(1, 0, LIMITS, SLOPES).value(positions)
-    proximity = ProximityBarrier(1, 0, LIMITS, SLOPES).value(positions)
+    overstretch = value(barrier_of("overstretch"), positions)
+    proximity = value(barrier_of("proximity"), positions)
     np.testing.assert_allclose(overstretch, limits - ranges)
     np.testing.assert_allclose(proximity, ranges - limits)
 
 
-@pytest.mark.parametrize("barrier", BARRIERS)
-def test_row_against_the_leader_is_the_whole_constraint(barrier, positions):
+@pytest.mark.parametrize("kind", KINDS)
+def test_row_against_the_leader_is_the_whole_constraint(kind, positions):
     """g . u - bound is dh/dt + alpha(h), with dh/dt from moving both agents."""
     generator = np.random.default_rng(8)
     own, leader = generator.normal(size=(2, 3))
-    barrier = barrier(1, 0, LIMITS, SLOPES)
+    barrier = barrier_of(kind)
     rows = barrier.rows(situation(positions, leader))
     step = 1e-6
     ahead, behind = positions.copy(), positions.copy()
     for moved, sign in ((ahead, 1.0), (behind, -1.0)):
         moved[0] += sign * step * leader
         moved[1] += sign * step * own
-    rate = (barrier.value(ahead) - barrier.value(behind))[0] / (2.0 * step)
-    alpha = PiecewiseLinearClassK(SLOPES)(barrier.value(positions)[0])
+    rate = (value(barrier, ahead) - value(barrier, behind))[0] / (2.0 * step)
+    alpha = PiecewiseLinearClassK(*SLOPES)(barrier.value(positions, 0))
     assert rows.coefficients[0] @ own - rows.bounds[0] == pytest.approx(rate + alpha, abs=1e-7)
 
 
-@pytest.mark.parametrize("barrier", BARRIERS)
-def test_two_assistants_share_the_whole_constraint(barrier, positions):
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_assistants_share_the_whole_constraint(kind, positions):
     generator = np.random.default_rng(9)
     leader, first, second = generator.normal(size=(3, 3))
-    one = barrier(1, 0, np.full(3, 1.1), SLOPES)
-    two = barrier(2, 0, np.full(3, 1.1), SLOPES)
+    one = barrier_of(kind, 1, np.full(3, 1.1))
+    two = barrier_of(kind, 2, np.full(3, 1.1))
     scene = situation(positions, leader)
     shared = [
         rows.coefficients[1] @ u - rows.bounds[1]
         for rows, u in ((one.rows(scene), first), (two.rows(scene), second))
     ]
-    direction = one.gradient(positions)[1]
-    alpha = PiecewiseLinearClassK(SLOPES)(one.value(positions)[1])
+    direction = one.gradient(positions, 2)
+    alpha = PiecewiseLinearClassK(*SLOPES)(one.value(positions, 2))
     assert sum(shared) == pytest.approx(direction @ (first - second) + alpha)
 
 
-@pytest.mark.parametrize("barrier", BARRIERS)
-def test_a_formation_that_moves_with_the_leader_is_not_held_back(barrier):
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_formation_that_moves_with_the_leader_is_not_held_back(kind):
     positions = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     limits = np.linalg.norm(positions - positions[1], axis=1)  # all margins are zero
     velocity = np.array([0.7, -0.4, 0.2])
-    rows = barrier(1, 0, limits, SLOPES).rows(situation(positions, velocity))
+    rows = barrier_of(kind, 1, limits).rows(situation(positions, velocity))
     np.testing.assert_allclose(rows.coefficients @ velocity, rows.bounds, atol=1e-12)
 
 
-@pytest.mark.parametrize("barrier", BARRIERS)
-def test_coincident_points_have_a_direction_that_both_agents_agree_on(barrier):
+@pytest.mark.parametrize("kind", KINDS)
+def test_coincident_points_have_a_direction_that_both_agents_agree_on(kind):
     positions = np.zeros((3, 3))
-    one = barrier(1, 0, LIMITS, SLOPES).gradient(positions)
-    two = barrier(2, 0, LIMITS, SLOPES).gradient(positions)
+    one = gradient(barrier_of(kind, 1), positions)
+    two = gradient(barrier_of(kind, 2), positions, (0, 1))
     np.testing.assert_allclose(np.linalg.norm(one, axis=1), 1.0)
     np.testing.assert_array_equal(one[1], -two[1])
-    assert np.isfinite(barrier(1, 0, LIMITS, SLOPES).rows(situation(positions)).bounds).all()
+    assert np.isfinite(barrier_of(kind).rows(situation(positions)).bounds).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_rows_keep_a_margin_that_the_value_does_not_count(kind, positions):
+    with_margin = barrier_of(kind, margin=0.005)
+    np.testing.assert_array_equal(value(with_margin, positions), value(barrier_of(kind), positions))
+    alpha = PiecewiseLinearClassK(*SLOPES)
+    bound = with_margin.rows(situation(positions)).bounds[0]
+    assert bound == pytest.approx(-alpha(with_margin.value(positions, 0) - 0.005))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_without_shares_each_answers_the_others_measured_velocity(kind, positions):
+    """The paper's rows."""
+    barrier = barrier_of(kind, shares=False)
+    rows = barrier.rows(situation(positions, (0.1, 0.0, -0.2), others=0.3))
+    alpha = PiecewiseLinearClassK(*SLOPES)
+    wanted = barrier.gradient(positions, 2) @ np.full(3, 0.3) - alpha(barrier.value(positions, 2))
+    assert rows.bounds[1] == pytest.approx(wanted)
+
+
+def test_the_lowest_is_that_of_the_worst_pair(positions):
+    barrier = barrier_of("overstretch")
+    assert barrier.lowest(positions) == value(barrier, positions).min()

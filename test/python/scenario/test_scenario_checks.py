@@ -23,6 +23,7 @@ def test_time_step_beyond_the_cycle(mapping, change, problems_of):
     [
         ("controller.gain", 50.0, "below controller.rate (50 Hz)"),
         ("controller.collision.alpha", [1.0, 60.0], "below controller.rate"),
+        ("controller.collision.anticipation", [60.0, 1.0], "below controller.rate"),
         ("controller.overstretch.alpha", [60.0, 1.0], "below controller.rate"),
         ("controller.proximity.alpha", [60.0, 1.0], "below controller.rate"),
         ("controller.timeout", 0.01, "at least one cycle, 1 / controller.rate = 0.02 s"),
@@ -76,3 +77,31 @@ def test_independent_checks_are_reported_together(mapping, change, problems_of):
         "controller.gain",
         "leader.waypoints.0.time",
     }
+
+
+def test_the_papers_formulation_brings_its_values(mapping, change, tmp_path):
+    controller = scenario_from_mapping(
+        change(mapping, "controller.formulation", "paper"), tmp_path
+    ).controller
+    assert (controller.differences, controller.feedforward) == ("forward", False)
+    assert controller.collision.gradient == "minimum"
+    margins = [controller.collision, controller.overstretch, controller.proximity]
+    assert [section.margin for section in margins] == [0.0, 0.0, 0.0]
+    assert controller.collision.offset == mapping["controller"]["collision"]["offset"]
+
+
+@pytest.mark.parametrize(
+    "key, value, wanted",
+    [
+        ("controller.differences", "central", "forward"),
+        ("controller.feedforward", True, "false"),
+        ("controller.jacobian", "equilibrium", "perturbed_copies"),
+        ("controller.collision.gradient", "features", "minimum"),
+        ("controller.overstretch.margin", 0.01, "0.0"),
+    ],
+)
+def test_the_papers_formulation_takes_no_others(mapping, change, problems_of, key, value, wanted):
+    change(mapping, "controller.formulation", "paper")
+    found = problems_of(change(mapping, key, value))
+    assert list(found) == [key]
+    assert f"must be {wanted} with controller.formulation: paper" in found[key].replace("'", "")

@@ -1,20 +1,20 @@
-"""Solvers of small strictly convex quadratic programs, by name.
+"""Solvers of qpsolvers in place of the native one: references for tests and comparisons.
 
 A solver is called with P (n, n), q (n,), A (m, n), b (m,) and returns the x (n,) that minimises
-1/2 x' P x + q' x subject to A x >= b, or None where it found none. It does not check its input.
+1/2 x' P x + q' x subject to A x >= b, or None where it found none. The safety filter checks what
+it returns.
 """
 
 from functools import partial
 
 import numpy as np
-import qpsolvers
 
 # Different for each constraint, far below the safety filter's tolerance.
 _LOOSENED = 1e-11 * (1.0 + np.modf(0.618033988749895 * np.arange(4096))[0])
 
 
 def find_solver(name):
-    """The solver called ``name`` in qpsolvers.
+    """The solver called ``name``: of qpsolvers, or None for ``native``.
 
     quadprog is called directly: going through qpsolvers takes twice as long for a problem of
     three variables. Every other solver goes through qpsolvers.
@@ -22,16 +22,20 @@ def find_solver(name):
     Raises:
         ValueError: no such solver is installed; the message names those that are.
     """
+    if name == "native":
+        return None
+    import qpsolvers  # slow to import, and not needed for the native solver
+
     if name not in qpsolvers.dense_solvers:
         raise ValueError(
-            f"controller.solver: '{name}', allowed are the installed dense solvers of qpsolvers: "
-            f"{', '.join(sorted(qpsolvers.dense_solvers))}; install it or choose one of them"
+            f"controller.solver: '{name}', allowed are native and the installed dense solvers of "
+            f"qpsolvers: {', '.join(sorted(qpsolvers.dense_solvers))}; install it or choose one"
         )
     if name == "quadprog":
         from quadprog import solve_qp  # optional: it need not be there for another solver
 
         return partial(_solve_with_quadprog, solve_qp)
-    return partial(solve_with_qpsolvers, name)
+    return partial(_solve_with_qpsolvers, qpsolvers, name)
 
 
 def _solve_with_quadprog(solve_qp, P, q, A, b):
@@ -46,8 +50,7 @@ def _solve_with_quadprog(solve_qp, P, q, A, b):
         return None
 
 
-def solve_with_qpsolvers(name, P, q, A, b):
-    """Solve with the solver of qpsolvers called ``name``."""
+def _solve_with_qpsolvers(qpsolvers, name, P, q, A, b):
     try:
         return qpsolvers.solve_qp(P, q, -A, -b, solver=name)
     except (qpsolvers.QPError, ValueError):

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace deformable_manipulation {
+namespace control {
+
+//! Extended class K-infinity function of two slopes (paper, section VI): how fast a barrier may be approached.
+//!
+//! The first slope says how fast h may shrink while safe, the second how fast a violation is to be mended.
+class PiecewiseLinearClassK {
+ public:
+  //! @param above, below [1/s] slopes for h >= 0 and for h < 0
+  //! @throw std::invalid_argument if a slope is not a positive finite number
+  PiecewiseLinearClassK(double above, double below);
+
+  //! alpha(h) [unit of h per second].
+  double operator()(double h) const { return (h >= 0.0 ? above_ : below_) * h; }
+
+ private:
+  double above_;
+  double below_;
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

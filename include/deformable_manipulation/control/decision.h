@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "deformable_manipulation/control/constraint_rows.h"
+#include "deformable_manipulation/control/status.h"
+#include "deformable_manipulation/pbd/types.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+using pbd::Vector3;
+
+constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
+
+//! What an assistant's controller decided in one cycle, and on what grounds.
+//!
+//! The command is always finite. Everything else is NaN where it is not known, as while waiting for valid input.
+struct Decision {
+  Status status = Status::WAITING;
+  bool enabled = true;
+  bool lacks_copies = false;                      //!< waits because its gradients are not known
+  Vector3 command = Vector3::Zero();              //!< [m/s] of the own held point
+  Vector3 nominal = Vector3::Constant(UNKNOWN);   //!< [m/s]
+  Vector3 position = Vector3::Constant(UNKNOWN);  //!< [m] own held point
+  Vector3 target = Vector3::Constant(UNKNOWN);    //!< [m] leader plus reference
+  double distance = UNKNOWN;                      //!< [m] signed minimum of the object; infinite: no obstacle
+  double h_collision = UNKNOWN;                   //!< [m] distance minus offset
+  double h_overstretch = UNKNOWN;                 //!< [m] the lowest over the other agents
+  double h_proximity = UNKNOWN;                   //!< [m] the lowest over the other agents
+  Vector3 jacobian = Vector3::Constant(UNKNOWN);  //!< [1] d distance / d position
+  bool exact_jacobian = false;                    //!< from the equilibrium; false: from perturbed copies
+  double leader_drift = UNKNOWN;                  //!< [m/s] change of the distance by the leader's motion
+  int rows = 0;                                   //!< of the barriers
+  std::array<double, TIERS> slack = {};           //!< [m/s] by how much the rows of each tier are missed at most
+  double solve_time = 0.0;                        //!< [s] of the safety filter
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "deformable_manipulation/control/features.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! Displacement rates of the object by differences over its copies, kept over the cycles (paper, section V-B).
+//!
+//! For each agent with copies, the rates dX / dp_j of all points X and of the minimum distance with respect to
+//! the three components of its held point p are (X_c - X_0) / d for a copy c displaced by d along one axis.
+//! Displacements in any other directions are solved for together: opposite ones give central differences,
+//! oblique ones the least-squares solution. Only copies that are ready count; along the directions that no
+//! ready copy spans, the last rates are held.
+//!
+//! Copies of the leader are not used: its gradients are the rest (see Features). Beside the copies that this
+//! saves, it makes the predicted rate exact for a formation that moves as one, where differences over 0.1 m
+//! for each agent separately have a bias that does not cancel. An assistant without usable copies counts as
+//! moving with the leader: its part is in the rest.
+class Differences {
+ public:
+  Differences(int agents, int leader);
+
+  //! Forgets all rates.
+  void reset();
+
+  //! Whether all copies of an agent have been ready at once since the start or reset.
+  bool known(int agent) const { return agents_[agent].known; }
+
+  //! Takes in the copies of an observation.
+  void update(const ObservationView& observation);
+
+  //! All features of copy 0, each with the rates of its own material point: as that of a locally nearest pair,
+  //! its distance changes with the points' motion along the normal, g[m, a, j] = normal . dX_m / dp_aj.
+  void takeGradients(const DistancesView& distances, Features& features) const;
+
+  //! The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6).
+  void takeMinimum(const DistancesView& distances, Features& features) const;
+
+ private:
+  using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+  using Directions = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+  struct Agent {
+    bool known = false;
+    Rates rates;              // [3, 3 P + 1] of the coordinates of the points, then of the minimum
+    Directions directions;    // [ready copies, 3] m, that the inverse is of
+    Eigen::MatrixXd inverse;  // [3, ready copies]
+  };
+
+  void updateAgent(int index, const ObservationView& observation);
+  void fill(Agent& agent, const ObservationView& observation);
+
+  int leader_;
+  std::vector<Agent> agents_;
+  std::vector<int> usable_;                                                        // copies of the agent at hand
+  Directions directions_;                                                          // [usable, 3] m
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> change_;  // [usable, 3 P + 1]
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

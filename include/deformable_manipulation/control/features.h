@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/control/observation.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! M nearest features of the object itself with their gradients.
+//!
+//! gradient(m, a) . v is the rate at which feature m's distance grows when agent a's held point moves with
+//! the velocity v. Moving all held points together moves the object rigidly, however it is held, so the
+//! gradients of all agents sum to the normal: the leader's is the rest of the others'.
+class Features {
+ public:
+  //! Starts afresh, with the first features of copy 0 and gradients of zero.
+  //! @param nearest_only the feature of the minimum alone
+  void take(const DistancesView& distances, int agents, bool nearest_only);
+
+  //! Gives the leader the rest of the normals.
+  void completeLeader(int leader);
+
+  int size() const { return static_cast<int>(distance.size()); }
+  int agents() const { return agents_; }
+  Vector3& gradient(int feature, int agent) { return gradients_[feature * agents_ + agent]; }
+  const Vector3& gradient(int feature, int agent) const { return gradients_[feature * agents_ + agent]; }
+
+  std::vector<double> distance;            //!< [M] m, signed, the least first
+  std::vector<Vector3> normal;             //!< [M] unit vector along which the distance grows fastest
+  std::vector<Vector3> obstacle_velocity;  //!< [M] m/s
+
+ private:
+  int agents_ = 0;
+  std::vector<Vector3> gradients_;  // [M x A]
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

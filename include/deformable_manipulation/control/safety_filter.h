@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "deformable_manipulation/control/constraint_rows.h"
+#include "deformable_manipulation/control/dual_active_set.h"
+#include "deformable_manipulation/control/quadratic_program.h"
+#include "deformable_manipulation/control/status.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! [m/s] by which a constraint may be missed before it counts as relaxed.
+constexpr double VELOCITY_TOLERANCE = 1e-6;
+
+//! Which of the limits yields to which: the first is the last to yield.
+using Priority = std::array<Tier, LIMIT_TIERS>;
+constexpr Priority DEFAULT_PRIORITY = {Tier::COLLISION, Tier::OVERSTRETCH, Tier::PROXIMITY};
+
+//! Result of the safety filter.
+struct Filtered {
+  Eigen::VectorXd velocity;              //!< [n] m/s always finite and within the bounds, or zero if FAILED
+  Status status = Status::FAILED;        //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
+  std::array<double, TIERS> slack = {};  //!< [m/s] by how much the rows of each tier are missed at most
+  int rows = 0;
+};
+
+//! The velocity nearest to the nominal one that the constraints allow.
+//!
+//! min 1/2 |diag(weights) (u - nominal)|^2 subject to rows and bounds (paper, eq. 13). The bounds always hold.
+//! The rows of a tier share one slack s_t >= 0:
+//!
+//!   min 1/2 |diag(weights) (u - nominal)|^2 + sum_t (c_t s_t + r_t s_t^2 / 2),
+//!   rows of tier t: g . u >= min(b, most that g . u reaches within the bounds) - s_t.
+//!
+//! For limits the linear penalty makes a slack exactly zero wherever its tier can hold; the quadratic one,
+//! r = max(weights)^2, only makes the cost positive definite. The costs c_t are a factor of 100 apart in the
+//! order of the priority, rather than strictly lexicographic: a strict order would spend all of a lower tier
+//! on a gain of a micrometre per second in a higher one, which a row of nearly no gradient asks for. So a tier
+//! yields to a lower one only where it would cost that one more than a hundredfold. ANTICIPATION has the
+//! quadratic penalty alone: it pulls, the more the farther it is missed, and never stands against a limit.
+//!
+//! Taking the minimum keeps a row that no velocity can satisfy from loosening the others of its tier; what it
+//! lacks shows in the reported slack. As one program with one solution, continuous in all that is given, it
+//! does not jump where limits begin to contradict one another.
+class SafetyFilter {
+ public:
+  //! @param weights gamma [n], positive
+  //! @param priority of the limits
+  //! @param relaxation false: rows that cannot all hold give FAILED (the paper)
+  //! @throw std::invalid_argument if a weight is not positive and finite, or the priority is no order of the limits
+  explicit SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority = DEFAULT_PRIORITY,
+                        bool relaxation = true);
+
+  SafetyFilter(const SafetyFilter&) = delete;
+  SafetyFilter& operator=(const SafetyFilter&) = delete;
+
+  //! Another solver than DualActiveSet.
+  void setSolver(QpSolver solver) { solver_ = std::move(solver); }
+
+  //! @param nominal, lower, upper [n] m/s
+  //! @param rows of n components
+  //! @return valid until the next call; FAILED with zero velocity if a number is not finite, the bounds are
+  //! crossed, or the solver gives no valid solution
+  const Filtered& filter(const Eigen::VectorXd& nominal, const ConstraintRows& rows, const Eigen::VectorXd& lower,
+                         const Eigen::VectorXd& upper);
+
+ private:
+  struct Given {
+    const Eigen::VectorXd& nominal;
+    const ConstraintRows& rows;
+    const Eigen::VectorXd& lower;
+    const Eigen::VectorXd& upper;
+  };
+
+  Status decide(const Given& given);
+  bool holds(const Given& given) const;
+  void formulate(const Given& given);
+  void addRow(const Given& given, int row);
+  void addBounds(const Given& given);
+  bool solve(const Given& given);
+  bool isValid() const;
+  bool measureSlack(const Given& given);
+
+  Eigen::VectorXd squares_;  // [n] of the weights, the largest 1: only their ratios matter
+  std::array<double, TIERS> penalties_;
+  bool relaxation_;
+  QpSolver solver_;
+  DualActiveSet native_;
+  QuadraticProgram program_;
+  Eigen::VectorXd solution_;  // velocity, then slacks
+  Filtered result_;
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

@@ -1,0 +1,82 @@
+#include "deformable_manipulation/control/collision_barrier.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace deformable_manipulation {
+namespace control {
+
+namespace {
+
+// Squared gradient [1] below which an assistant has no say in a feature's distance: the shares then turn to
+// equal ones, smoothly.
+constexpr double NEGLIGIBLE = 1e-6;
+
+// Part of the band beyond which rows begin to loosen.
+constexpr double FULL_PART = 0.7;
+
+//! 0 up to the inner part of the band, 1 from its edge on, smooth in between.
+double looseness(double beyond_nearest, double band) {
+  const double edge = std::max(band, 1e-9);
+  const double x = std::clamp((beyond_nearest / edge - FULL_PART) / (1.0 - FULL_PART), 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+}  // namespace
+
+CollisionBarrier::CollisionBarrier(int agent, std::vector<int> assistants, const CollisionParameters& parameters,
+                                   double max_velocity, const Formulation& formulation)
+    : agent_(agent),
+      assistants_(std::move(assistants)),
+      parameters_(parameters),
+      max_velocity_(max_velocity),
+      formulation_(formulation) {}
+
+void CollisionBarrier::addRows(const Features& features, const Situation& situation, ConstraintRows& rows) const {
+  const Vector3 leader_velocity = leaderVelocity(situation);
+  const double margin = parameters_.margin + parameters_.speed_margin * leader_velocity.norm();
+  for (int m = 0; m < features.size(); ++m) {
+    const Vector3& g = features.gradient(m, agent_);
+    const double h = value(predictedDistance(features, m, situation)) - margin;
+    const double carried = features.normal[m].dot(leader_velocity - features.obstacle_velocity[m]);
+    const double own_share = share(features, m);
+    const double loose = looseness(features.distance[m] - features.distance[0], parameters_.band);
+    const double unreachable = -max_velocity_ * g.lpNorm<1>();  // a bound that every velocity satisfies
+    const auto add = [&](Tier tier, const PiecewiseLinearClassK& alpha) {
+      const double bound = g.dot(leader_velocity) - own_share * (carried + alpha(h));
+      rows.add(tier, g.data(), bound - loose * std::max(0.0, bound - unreachable));
+    };
+    add(Tier::COLLISION, parameters_.alpha);
+    if (formulation_.anticipation) {
+      add(Tier::ANTICIPATION, parameters_.anticipation);
+    }
+  }
+}
+
+Vector3 CollisionBarrier::leaderVelocity(const Situation& situation) const {
+  return formulation_.leader_velocity ? situation.leaderVelocity() : Vector3::Zero();
+}
+
+//! Distance [m] when the command starts to act, to first order.
+double CollisionBarrier::predictedDistance(const Features& features, int feature, const Situation& situation) const {
+  const Vector3 leader_velocity = leaderVelocity(situation);
+  double rate = features.normal[feature].dot(leader_velocity - features.obstacle_velocity[feature]);
+  for (const int assistant : assistants_) {
+    rate += features.gradient(feature, assistant).dot(situation.velocities[assistant] - leader_velocity);
+  }
+  return features.distance[feature] + situation.delay * rate;
+}
+
+double CollisionBarrier::share(const Features& features, int feature) const {
+  if (!formulation_.shares) {
+    return 1.0;
+  }
+  double sum = 0.0;
+  for (const int assistant : assistants_) {
+    sum += features.gradient(feature, assistant).squaredNorm() + NEGLIGIBLE;
+  }
+  return (features.gradient(feature, agent_).squaredNorm() + NEGLIGIBLE) / sum;
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation

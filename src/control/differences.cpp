@@ -1,0 +1,112 @@
+#include "deformable_manipulation/control/differences.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace deformable_manipulation {
+namespace control {
+
+namespace {
+
+constexpr double SMALLEST_DISPLACEMENT = 1e-6;  // m, below which a difference is rounding
+
+double finiteMinimum(const DistancesView& distances, int copy) {
+  return std::isfinite(distances.minimum[copy]) ? distances.minimum[copy] : 0.0;
+}
+
+}  // namespace
+
+Differences::Differences(int agents, int leader) : leader_(leader), agents_(static_cast<std::size_t>(agents)) {}
+
+void Differences::reset() { agents_.assign(agents_.size(), Agent{}); }
+
+void Differences::update(const ObservationView& observation) {
+  const Eigen::Index columns = 3L * observation.points + 1;
+  for (std::size_t agent = 0; agent < agents_.size(); ++agent) {
+    if (agents_[agent].rates.cols() != columns) {
+      agents_[agent] = Agent{};
+      agents_[agent].rates.setZero(3, columns);
+    }
+    if (static_cast<int>(agent) != leader_) {
+      updateAgent(static_cast<int>(agent), observation);
+    }
+  }
+}
+
+void Differences::updateAgent(int index, const ObservationView& observation) {
+  Agent& agent = agents_[index];
+  int own = 0;
+  usable_.clear();
+  for (int copy = 0; copy < observation.copies; ++copy) {
+    if (observation.displaced_agents[copy] != index) {
+      continue;
+    }
+    ++own;
+    const Eigen::Map<const Vector3> displacement(observation.displacements + 3 * copy);
+    if (observation.ready[copy] && displacement.cwiseAbs().maxCoeff() > SMALLEST_DISPLACEMENT) {
+      usable_.push_back(copy);
+    }
+  }
+  if (own == 0) {
+    agent.known = false;
+    agent.rates.setZero();
+  } else if (!usable_.empty()) {
+    agent.known = agent.known || static_cast<int>(usable_.size()) == own;
+    fill(agent, observation);
+  }
+}
+
+//! Rates that the usable copies tell: R <- R + D^+ (change - D R).
+void Differences::fill(Agent& agent, const ObservationView& observation) {
+  const Eigen::Index size = 3L * observation.points;
+  const auto coordinates = [&](int copy) {
+    return Eigen::Map<const Eigen::RowVectorXd>(observation.coordinates + copy * size, size);
+  };
+  const auto count = static_cast<Eigen::Index>(usable_.size());
+  directions_.resize(count, 3);
+  change_.resize(count, size + 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int copy = usable_[i];
+    directions_.row(i) = Eigen::Map<const Vector3>(observation.displacements + 3 * copy).transpose();
+    change_.row(i).head(size) = coordinates(copy) - coordinates(0);
+    change_(i, size) = finiteMinimum(observation.distances, copy) - finiteMinimum(observation.distances, 0);
+    for (int axis = 0; axis < 3; ++axis) {
+      change_.row(i) -= directions_(i, axis) * agent.rates.row(axis);
+    }
+  }
+  if (agent.directions.rows() != count || agent.directions != directions_) {
+    agent.directions = directions_;
+    agent.inverse = directions_.completeOrthogonalDecomposition().pseudoInverse();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      agent.rates.row(axis) += agent.inverse(axis, i) * change_.row(i);
+    }
+  }
+}
+
+void Differences::takeGradients(const DistancesView& distances, Features& features) const {
+  features.take(distances, static_cast<int>(agents_.size()), false);
+  for (int m = 0; m < features.size(); ++m) {
+    for (int agent = 0; agent < features.agents(); ++agent) {
+      for (int k = 0; k < 3 && agent != leader_; ++k) {
+        const auto rates = agents_[agent].rates.middleCols<3>(3L * distances.vertices[3 * m + k]);
+        features.gradient(m, agent) += distances.weights[3 * m + k] * (rates * features.normal[m]);
+      }
+    }
+  }
+  features.completeLeader(leader_);
+}
+
+void Differences::takeMinimum(const DistancesView& distances, Features& features) const {
+  features.take(distances, static_cast<int>(agents_.size()), true);
+  for (int agent = 0; agent < features.agents() && features.size() > 0; ++agent) {
+    if (agent != leader_) {
+      features.gradient(0, agent) = agents_[agent].rates.rightCols<1>();
+    }
+  }
+  features.completeLeader(leader_);
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation

@@ -1,0 +1,201 @@
+#include "deformable_manipulation/control/safety_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace deformable_manipulation {
+namespace control {
+
+namespace {
+
+// A row whose coefficients sum to less asks for more than the agent can give: at 0.15 m/s it changes its
+// barrier by less than 0.15 mm/s, about what differences between copies resolve. It is left out of the
+// program and shows in the slack alone.
+constexpr double NEGLIGIBLE_GRADIENT = 1e-3;
+
+// Cost of one m/s of slack, in multiples of the steepest cost of departing from the nominal velocity, from
+// the first limit in the priority to the last.
+constexpr std::array<double, LIMIT_TIERS> PENALTIES = {1e6, 1e4, 1e2};
+
+// Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
+constexpr double ANTICIPATION_WEIGHT = 10.0;
+
+std::array<double, TIERS> penaltiesOf(const Priority& priority) {
+  std::array<double, TIERS> penalties = {};
+  for (int place = 0; place < LIMIT_TIERS; ++place) {
+    if (priority[place] == Tier::ANTICIPATION) {
+      throw std::invalid_argument("priority: anticipation is no limit, and always the first to yield");
+    }
+    penalties[static_cast<int>(priority[place])] = PENALTIES[place];
+  }
+  if (std::count(penalties.begin(), penalties.end(), 0.0) != TIERS - LIMIT_TIERS) {
+    throw std::invalid_argument("priority: names a limit twice; allowed is an order of all of them");
+  }
+  return penalties;
+}
+
+}  // namespace
+
+SafetyFilter::SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority, bool relaxation)
+    : penalties_(penaltiesOf(priority)), relaxation_(relaxation) {
+  if (weights.size() == 0 || !weights.allFinite() || !(weights.array() > 0.0).all()) {
+    throw std::invalid_argument("controller.weights: allowed are positive finite numbers");
+  }
+  squares_ = (weights / weights.maxCoeff()).cwiseAbs2();
+  solver_ = [this](const QuadraticProgram& program, Eigen::VectorXd& x) {
+    if (native_.solve(program) != DualActiveSet::Outcome::OPTIMAL) {
+      return false;
+    }
+    x = native_.solution();
+    return true;
+  };
+}
+
+const Filtered& SafetyFilter::filter(const Eigen::VectorXd& nominal, const ConstraintRows& rows,
+                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  const Eigen::Index n = squares_.size();
+  if (nominal.size() != n || lower.size() != n || upper.size() != n || (rows.size() && rows.components() != n)) {
+    throw std::invalid_argument("nominal, lower, upper and rows must have as many components as there are weights");
+  }
+  result_.rows = rows.size();
+  result_.slack.fill(0.0);
+  result_.status = decide({nominal, rows, lower, upper});
+  if (result_.status == Status::FAILED) {
+    result_.velocity = Eigen::VectorXd::Zero(n);
+    result_.slack.fill(0.0);
+  }
+  return result_;
+}
+
+Status SafetyFilter::decide(const Given& given) {
+  if (!given.nominal.allFinite() || !given.lower.allFinite() || !given.upper.allFinite() ||
+      (given.lower.array() > given.upper.array()).any()) {
+    return Status::FAILED;
+  }
+  for (int row = 0; row < given.rows.size(); ++row) {
+    // A sum is finite only if all terms are.
+    if (!std::isfinite(given.rows.coefficients(row).sum() + given.rows.bound(row))) {
+      return Status::FAILED;
+    }
+  }
+  // With a diagonal cost, clipping is the optimum over the bounds alone, and so the optimum altogether if it
+  // satisfies the rows.
+  result_.velocity = given.nominal.cwiseMax(given.lower).cwiseMin(given.upper);
+  if (!holds(given)) {
+    if (!solve(given)) {
+      return Status::FAILED;
+    }
+    if (measureSlack(given)) {
+      return Status::RELAXED;
+    }
+  }
+  const double departure = (result_.velocity - given.nominal).cwiseAbs().maxCoeff();
+  return departure > VELOCITY_TOLERANCE ? Status::CONSTRAINED : Status::NOMINAL;
+}
+
+//! Whether the velocity satisfies all rows.
+bool SafetyFilter::holds(const Given& given) const {
+  for (int row = 0; row < given.rows.size(); ++row) {
+    if (!(given.rows.coefficients(row).dot(result_.velocity) >= given.rows.bound(row))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void SafetyFilter::formulate(const Given& given) {
+  const Eigen::Index n = squares_.size();
+  const Eigen::Index slacks = relaxation_ ? TIERS : 0;
+  program_.hessian.resize(n + slacks);
+  program_.linear.resize(n + slacks);
+  program_.hessian.head(n) = squares_;
+  program_.linear.head(n) = -squares_.cwiseProduct(given.nominal);
+  program_.clear(given.rows.size() + static_cast<int>(2 * n + slacks));
+  if (relaxation_) {
+    const auto reach = given.lower.cwiseAbs().cwiseMax(given.upper.cwiseAbs());
+    const double steepest = (squares_.array() * (given.nominal.cwiseAbs() + reach).array()).maxCoeff();
+    for (int tier = 0; tier < TIERS; ++tier) {
+      const bool is_limit = penalties_[tier] > 0.0;
+      program_.hessian[n + tier] = is_limit ? 1.0 : ANTICIPATION_WEIGHT;
+      program_.linear[n + tier] = penalties_[tier] * (steepest > 0.0 ? steepest : 1.0);
+      program_.addRow(0.0)[n + tier] = 1.0;
+    }
+  }
+  for (int row = 0; row < given.rows.size(); ++row) {
+    addRow(given, row);
+  }
+  addBounds(given);
+}
+
+//! A row of the barriers, as far as it can be satisfied and missed within the bounds.
+void SafetyFilter::addRow(const Given& given, int row) {
+  const ConstraintRows::Coefficients g = given.rows.coefficients(row);
+  double limit = given.rows.bound(row);
+  if (relaxation_) {
+    const double most = g.cwiseMax(0.0).dot(given.upper) + g.cwiseMin(0.0).dot(given.lower);
+    const double least = g.cwiseMax(0.0).dot(given.lower) + g.cwiseMin(0.0).dot(given.upper);
+    if (limit <= least || g.lpNorm<1>() < NEGLIGIBLE_GRADIENT) {
+      return;
+    }
+    limit = std::min(limit, most);
+  }
+  auto added = program_.addRow(limit);
+  added.head(g.size()) = g.transpose();
+  if (relaxation_) {
+    added[g.size() + static_cast<int>(given.rows.tier(row))] = 1.0;
+  }
+}
+
+void SafetyFilter::addBounds(const Given& given) {
+  for (Eigen::Index i = 0; i < squares_.size(); ++i) {
+    program_.addRow(given.lower[i])[i] = 1.0;
+    program_.addRow(-given.upper[i])[i] = -1.0;
+  }
+}
+
+//! The velocity that solves the program; false if there is none that is valid.
+bool SafetyFilter::solve(const Given& given) {
+  formulate(given);
+  if (!solver_(program_, solution_) || !isValid()) {
+    return false;
+  }
+  // Without the rounding at the bounds.
+  result_.velocity = solution_.head(squares_.size()).cwiseMax(given.lower).cwiseMin(given.upper);
+  return true;
+}
+
+//! Whether the solution is finite and satisfies the program.
+bool SafetyFilter::isValid() const {
+  if (solution_.size() != program_.variables() || !solution_.allFinite()) {
+    return false;
+  }
+  for (int row = 0; row < program_.rows; ++row) {
+    const auto coefficients = program_.constraints.row(row);
+    const double tolerance = VELOCITY_TOLERANCE * std::max(1.0, coefficients.lpNorm<Eigen::Infinity>());
+    if (!(coefficients.dot(solution_) >= program_.limits[row] - tolerance)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+//! By how much the rows of each tier are missed; true if a limit is.
+bool SafetyFilter::measureSlack(const Given& given) {
+  for (int row = 0; row < given.rows.size(); ++row) {
+    const double missing = given.rows.bound(row) - given.rows.coefficients(row).dot(result_.velocity);
+    double& slack = result_.slack[static_cast<int>(given.rows.tier(row))];
+    if (missing > VELOCITY_TOLERANCE) {
+      slack = std::max(slack, missing);
+    }
+  }
+  for (int tier = 0; tier < TIERS; ++tier) {
+    if (penalties_[tier] > 0.0 && result_.slack[tier] > 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation

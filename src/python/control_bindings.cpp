@@ -1,0 +1,78 @@
+// Safe velocity control for Python: deformable_manipulation._control
+
+#include "control_bindings.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+
+#include "deformable_manipulation/control/class_k.h"
+#include "deformable_manipulation/control/constraint_rows.h"
+#include "deformable_manipulation/control/velocity_estimator.h"
+
+namespace py = pybind11;
+using namespace deformable_manipulation::control;
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+namespace {
+
+//! An estimator of positions of any shape.
+struct ShapedEstimator {
+  VelocityEstimator estimator;
+  std::vector<py::ssize_t> shape;
+
+  bool update(double time, const Numbers& position) {
+    const Eigen::Map<const Eigen::VectorXd> flat(position.data(), position.size());
+    const bool accepted = estimator.update(time, flat);
+    if (accepted) {
+      shape.assign(position.shape(), position.shape() + position.ndim());
+    }
+    return accepted;
+  }
+
+  Numbers velocity() const {
+    if (!estimator.hasPosition()) {
+      throw std::runtime_error("no position known yet: call update first");
+    }
+    return Numbers(shape, estimator.velocity().data());
+  }
+};
+
+void bindEstimator(py::module_& module) {
+  py::class_<ShapedEstimator>(module, "VelocityEstimator",
+                              "Backward difference over the newest stamped positions, of any shape.\n\n"
+                              "min_interval [s]: stamps closer than this count as the same; jump_back [s]: a stamp "
+                              "older by more\nmeans that time was set back.")
+      .def(py::init([](double min_interval, double jump_back) {
+             return ShapedEstimator{VelocityEstimator(min_interval, jump_back), {}};
+           }),
+           py::arg("min_interval") = 1e-4, py::arg("jump_back") = 0.2)
+      .def(
+          "reset", [](ShapedEstimator& e) { e.estimator.reset(); }, "Forgets all positions.")
+      .def("update", &ShapedEstimator::update, py::arg("time"), py::arg("position"),
+           "Takes in a position [m] stamped with a time [s]; whether it was accepted: finite and newer than all\n"
+           "before, or after a jump back.")
+      .def("velocity", &ShapedEstimator::velocity,
+           "Mean velocity [m/s] of the newest interval; zeros while fewer than two positions are known. Raises\n"
+           "RuntimeError where none is.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_control, module) {
+  module.doc() = "Safe velocity control of assistants (C++ core).";
+  py::enum_<Tier>(module, "Tier", "Kinds of constraints.")
+      .value("COLLISION", Tier::COLLISION)
+      .value("OVERSTRETCH", Tier::OVERSTRETCH)
+      .value("PROXIMITY", Tier::PROXIMITY)
+      .value("ANTICIPATION", Tier::ANTICIPATION);
+  py::class_<PiecewiseLinearClassK>(module, "PiecewiseLinearClassK",
+                                    "Extended class K-infinity function: slopes [1/s] for h >= 0 and h < 0. Raises "
+                                    "ValueError.")
+      .def(py::init<double, double>(), py::arg("above"), py::arg("below"))
+      .def("__call__", &PiecewiseLinearClassK::operator(), py::arg("h"), "alpha(h) [unit of h per second].");
+  bindEstimator(module);
+  bindQuadraticProgram(module);
+  bindController(module);
+  bindGradients(module);
+  bindBarriers(module);
+}

@@ -1,0 +1,149 @@
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "control_bindings.h"
+#include "deformable_manipulation/control/dual_active_set.h"
+#include "deformable_manipulation/control/safety_filter.h"
+#include "solver_from_python.h"
+
+namespace py = pybind11;
+using namespace deformable_manipulation::control;
+
+namespace {
+
+Tier toTier(const std::string& name) {
+  const std::array<const char*, TIERS> names = {"collision", "overstretch", "proximity", "anticipation"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw py::value_error("'" + name + "' is no kind of constraint");
+  }
+  return static_cast<Tier>(found - names.begin());
+}
+
+//! Rows with their components known from the start.
+ConstraintRows makeRows(int components) {
+  ConstraintRows rows;
+  rows.clear(components);
+  return rows;
+}
+
+py::object solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& linear, const RowMatrix& constraints,
+                 const Eigen::VectorXd& limits) {
+  const Eigen::Index n = hessian.size();
+  if (linear.size() != n || constraints.cols() != n || constraints.rows() != limits.size() ||
+      !(hessian.array() > 0.0).all()) {
+    throw py::value_error("expected hessian (n,) > 0, linear (n,), constraints (m, n), limits (m,)");
+  }
+  DualActiveSet solver;
+  if (solver.solve({hessian, linear, constraints, limits, static_cast<int>(limits.size())}) !=
+      DualActiveSet::Outcome::OPTIMAL) {
+    return py::none();
+  }
+  return py::cast(solver.solution());
+}
+
+std::unique_ptr<SafetyFilter> makeFilter(const Eigen::VectorXd& weights, const std::vector<std::string>& priority,
+                                         bool relaxation, const py::object& solver) {
+  auto filter = std::make_unique<SafetyFilter>(weights, toPriority(priority), relaxation);
+  if (!solver.is_none()) {
+    filter->setSolver(solverFromPython(solver));
+  }
+  return filter;
+}
+
+}  // namespace
+
+Priority toPriority(const std::vector<std::string>& names) {
+  if (names.size() != LIMIT_TIERS) {
+    throw py::value_error("priority: allowed is an order of collision, overstretch and proximity");
+  }
+  return {toTier(names[0]), toTier(names[1]), toTier(names[2])};
+}
+
+QpSolver solverFromPython(const py::object& solver) {
+  return [solver](const QuadraticProgram& program, Eigen::VectorXd& x) {
+    const RowMatrix constraints = program.constraints.topRows(program.rows);
+    const Eigen::VectorXd limits = program.limits.head(program.rows);
+    const Eigen::MatrixXd hessian = program.hessian.asDiagonal();
+    const py::object solution = solver(hessian, program.linear, constraints, limits);
+    if (solution.is_none()) {
+      return false;
+    }
+    x = solution.cast<Eigen::VectorXd>();
+    return true;
+  };
+}
+
+void bindQuadraticProgram(py::module_& module) {
+  module.def(
+      "solve_qp", &solve, py::arg("hessian"), py::arg("linear"), py::arg("constraints"), py::arg("limits"),
+      "The x (n,) that minimises 1/2 x' diag(hessian) x + linear' x subject to constraints x >= limits, or None\n"
+      "where the constraints contradict each other; hessian (n,) > 0, constraints (m, n).");
+  py::class_<ConstraintRows>(module, "ConstraintRows",
+                             "Constraints coefficients . u >= bound on a velocity u [m/s] of some components.")
+      .def(py::init(&makeRows), py::arg("components") = 3)
+      .def("__len__", &ConstraintRows::size)
+      .def(
+          "add",
+          [](ConstraintRows& rows, Tier tier, const Eigen::VectorXd& coefficients, double bound) {
+            if (coefficients.size() != rows.components()) {
+              throw py::value_error("coefficients must have " + std::to_string(rows.components()) + " components");
+            }
+            rows.add(tier, coefficients.data(), bound);
+          },
+          py::arg("tier"), py::arg("coefficients"), py::arg("bound"), "Adds a row; bound in m/s.")
+      .def_property_readonly(
+          "tiers",
+          [](const ConstraintRows& rows) {
+            std::vector<Tier> tiers;
+            for (int row = 0; row < rows.size(); ++row) {
+              tiers.push_back(rows.tier(row));
+            }
+            return tiers;
+          },
+          "Of each row.")
+      .def_property_readonly(
+          "coefficients",
+          [](const ConstraintRows& rows) {
+            RowMatrix all(rows.size(), rows.components());
+            for (int row = 0; row < rows.size(); ++row) {
+              all.row(row) = rows.coefficients(row).transpose();
+            }
+            return all;
+          },
+          "(rows, components).")
+      .def_property_readonly(
+          "bounds",
+          [](const ConstraintRows& rows) {
+            Eigen::VectorXd bounds(rows.size());
+            for (int row = 0; row < rows.size(); ++row) {
+              bounds[row] = rows.bound(row);
+            }
+            return bounds;
+          },
+          "(rows,) m/s.");
+  py::class_<SafetyFilter>(
+      module, "SafetyFilter",
+      "The velocity nearest to the nominal one that rows and bounds allow.\n\n"
+      "weights gamma (n,), positive; priority: of the limits, the last to yield first; relaxation\n"
+      "False: rows that cannot all hold fail; solver: called with the program's matrices P (n, n), "
+      "q, A, b,\ngives x or None. Raises ValueError.")
+      .def(py::init(&makeFilter), py::arg("weights"),
+           py::arg("priority") = std::vector<std::string>{"collision", "overstretch", "proximity"},
+           py::arg("relaxation") = true, py::arg("solver") = py::none())
+      .def(
+          "filter",
+          [](SafetyFilter& filter, const Eigen::VectorXd& nominal, const ConstraintRows& rows,
+             const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+            const Filtered& result = filter.filter(nominal, rows, lower, upper);
+            return py::make_tuple(result.velocity, static_cast<int>(result.status), result.slack);
+          },
+          py::arg("nominal"), py::arg("rows"), py::arg("lower"), py::arg("upper"),
+          "Velocity (n,) [m/s], status as a number of control.status.Status, slack [m/s] per Tier.");
+}

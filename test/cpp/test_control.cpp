@@ -1,0 +1,180 @@
+// The controller of one assistant: nothing is allocated in a cycle, and equal inputs give equal answers.
+// This file counts the calls of malloc of the whole test program.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "deformable_manipulation/control/assistant_controller.h"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+}  // namespace
+
+extern "C" void* __libc_malloc(std::size_t size);  // glibc's own
+
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace deformable_manipulation {
+namespace control {
+namespace {
+
+constexpr int AGENTS = 2;
+constexpr int POINTS = 29;
+constexpr int COPIES = 7;
+
+//! A level chain between two held points above ground, which sinks with the leader.
+class Chain {
+ public:
+  explicit Chain(int features) : features_(features) {}
+
+  //! State k of a leader that sinks at 0.1 m/s in front of an assistant at rest.
+  const ObservationView& at(int cycle) {
+    const double time = 0.01 * cycle;
+    positions_ = {0.0, 0.0, 0.3 - 0.1 * time, 0.0, 1.5, 0.3};
+    for (int copy = 0; copy < COPIES; ++copy) {
+      fillCopy(copy);
+    }
+    for (int m = 0; m < features_; ++m) {
+      distance_[m] = coordinates_[3 * m + 2] - 0.2;
+      normal_[3 * m + 2] = weights_[3 * m] = 1.0;
+      vertices_[3 * m] = m;
+    }
+    view_.time = time;
+    view_.agents = AGENTS;
+    view_.copies = COPIES;
+    view_.points = POINTS;
+    view_.positions = positions_.data();
+    view_.coordinates = coordinates_.data();
+    view_.displaced_agents = displaced_.data();
+    view_.displacements = displacements_.data();
+    view_.ready = ready_;
+    view_.distances = {minimum_.data(),  offsets_.data(), distance_.data(), normal_.data(),
+                       vertices_.data(), weights_.data(), still_.data(),    features_};
+    return view_;
+  }
+
+ private:
+  void fillCopy(int copy) {
+    const int axis = (copy + 2) % 3;
+    displaced_[copy] = copy == 0 ? -1 : 1;
+    if (copy > 0) {
+      displacements_[3 * copy + axis] = copy <= 3 ? 0.1 : -0.1;
+    }
+    for (int point = 0; point < POINTS; ++point) {
+      const double share = static_cast<double>(point) / (POINTS - 1);
+      for (int i = 0; i < 3; ++i) {
+        coordinates_[3 * (copy * POINTS + point) + i] =
+            (1.0 - share) * positions_[i] + share * (positions_[3 + i] + displacements_[3 * copy + i]);
+      }
+    }
+    minimum_[copy] = coordinates_[3 * copy * POINTS + 2] - 0.2;
+    offsets_[copy] = copy == 0 ? 0 : features_;
+    offsets_[copy + 1] = features_;
+  }
+
+  int features_;
+  std::vector<double> positions_ = std::vector<double>(3 * AGENTS);
+  std::vector<double> coordinates_ = std::vector<double>(3 * COPIES * POINTS);
+  std::vector<double> displacements_ = std::vector<double>(3 * COPIES);
+  std::vector<double> minimum_ = std::vector<double>(COPIES);
+  std::vector<int> displaced_ = std::vector<int>(COPIES);
+  std::vector<int> offsets_ = std::vector<int>(COPIES + 1);
+  std::vector<double> distance_ = std::vector<double>(POINTS);
+  std::vector<double> normal_ = std::vector<double>(3 * POINTS);
+  std::vector<double> weights_ = std::vector<double>(3 * POINTS);
+  std::vector<double> still_ = std::vector<double>(3 * POINTS);
+  std::vector<int> vertices_ = std::vector<int>(3 * POINTS);
+  bool ready_[COPIES] = {true, true, true, true, true, true, true};
+  ObservationView view_;
+};
+
+ControllerParameters parameters() {
+  ControllerParameters p;
+  p.assistants = {1};
+  p.reference = {0.0, 1.5, 0.0};
+  p.collision.offset = 0.05;
+  p.overstretch.limits = {2.0, 0.0};
+  p.proximity.limits = {0.2, 0.0};
+  return p;
+}
+
+TEST(Allocation, isCounted) {
+  const long before = allocations;
+  const AssistantController controller(parameters());
+  EXPECT_GT(allocations - before, 5);
+}
+
+TEST(AssistantController, allocatesNothingOnceWarm) {
+  for (const int features : {3, POINTS}) {
+    AssistantController controller(parameters());
+    Chain chain(features);
+    bool constrained = false;
+    for (int cycle = 0; cycle < 200; ++cycle) {
+      const ObservationView& observation = chain.at(cycle);
+      const long before = allocations;
+      const Decision& decision = controller.update(observation);
+      const long needed = allocations - before;
+      constrained = constrained || decision.status != Status::NOMINAL;
+      if (cycle < 100) {
+        continue;
+      }
+      EXPECT_EQ(needed, 0) << "cycle " << cycle;
+    }
+    EXPECT_TRUE(constrained);
+  }
+}
+
+TEST(AssistantController, answersEqualInputsEqually) {
+  AssistantController one(parameters());
+  AssistantController other(parameters());
+  Chain chain(POINTS);
+  for (int cycle = 0; cycle < 200; ++cycle) {
+    const Vector3 first = one.update(chain.at(cycle)).command;
+    EXPECT_EQ(first, other.update(chain.at(cycle)).command);
+    EXPECT_LE(first.cwiseAbs().maxCoeff(), parameters().max_velocity);
+  }
+}
+
+TEST(DualActiveSet, allocatesNothingOnceWarmAndNeedsFewIterations) {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  DualActiveSet solver;
+  QuadraticProgram program;
+  const int n = 13;
+  const int rows = 100;
+  program.hessian = Eigen::VectorXd::Ones(n);
+  program.linear = Eigen::VectorXd::Zero(n);
+  program.clear(rows);
+  for (int trial = 0; trial < 50; ++trial) {
+    program.rows = 0;
+    for (int row = 0; row < rows; ++row) {
+      auto added = program.addRow(normal(generator) - 1.0);
+      for (int i = 0; i < n; ++i) {
+        added[i] = normal(generator);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      program.linear[i] = 3.0 * normal(generator);
+    }
+    const long before = allocations;
+    const DualActiveSet::Outcome outcome = solver.solve(program);
+    if (trial > 0) {
+      EXPECT_EQ(allocations - before, 0);
+    }
+    EXPECT_NE(outcome, DualActiveSet::Outcome::UNSOLVED);
+    EXPECT_LT(solver.iterations(), rows);
+  }
+}
+
+}  // namespace
+}  // namespace control
+}  // namespace deformable_manipulation
