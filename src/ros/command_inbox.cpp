@@ -18,6 +18,9 @@ std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, co
     why << "it is in frame '" << command.header.frame_id << "', not in '" << frame_ << "'";
   } else if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
     why << "it is not finite";
+  } else if (twist.linear.norm() > kLargestSpeed || twist.angular.norm() > kLargestAngularSpeed) {
+    why << "it asks for " << twist.linear.norm() << " m/s and " << twist.angular.norm() << " rad/s; allowed are "
+        << kLargestSpeed << " and " << kLargestAngularSpeed;
   } else if (command.header.stamp > latest) {
     why << "its stamp " << command.header.stamp
         << " is in the future; set it to that of the state answered, and keep the computers' clocks together";

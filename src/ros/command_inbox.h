@@ -11,11 +11,14 @@ namespace deformable_manipulation {
 
 //! The newest acceptable velocity command of one agent.
 //!
-//! A command answers the state whose stamp it carries. One that is not finite, in another frame,
-//! or does not answer a state newer than the last accepted one is dropped. A second answer to the
+//! A command answers the state whose stamp it carries. One that is not finite, faster than any agent
+//! moves, in another frame, or does not answer a state newer than the last accepted one is dropped. A second answer to the
 //! same state is taken if it is to stand still: who leaves or loses its inputs stops at once.
 class CommandInbox {
  public:
+  static constexpr double kLargestSpeed = 10.0;         // m/s
+  static constexpr double kLargestAngularSpeed = 60.0;  // rad/s
+
   //! @param frame  fixed frame that commands must be in
   explicit CommandInbox(std::string frame) : frame_(std::move(frame)) {}
 

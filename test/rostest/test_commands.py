@@ -113,13 +113,23 @@ class CommandsTest(unittest.TestCase):
                 self.commander.reset()
                 self.assert_never_moves(lambda state, bad=bad: command(state, (bad, *BAD[1:])))
 
-    def test_an_angular_velocity_that_is_not_finite_is_dropped(self):
-        def make(state):
-            message = command(state, BAD)
-            message.twist.angular.y = float("nan")
-            return message
+    def test_a_command_that_no_agent_can_follow_is_dropped(self):
+        for bad in (11.0, 1e300):
+            with self.subTest(value=bad):
+                self.commander.reset()
+                self.assert_never_moves(lambda state, bad=bad: command(state, (bad, *BAD[1:])))
 
-        self.assert_never_moves(make)
+    def test_an_angular_velocity_that_is_not_finite_or_too_high_is_dropped(self):
+        for bad in (float("nan"), 61.0):
+
+            def make(state, bad=bad):
+                message = command(state, BAD)
+                message.twist.angular.y = bad
+                return message
+
+            with self.subTest(value=bad):
+                self.commander.reset()
+                self.assert_never_moves(make)
 
     def test_a_command_in_another_frame_is_dropped(self):
         def make(state):

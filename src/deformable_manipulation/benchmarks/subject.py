@@ -46,4 +46,8 @@ SUBJECTS: Dict[str, Subject] = {
         "deformable_manipulation.benchmarks.qp",
         ("numpy", "quadprog", "qpsolvers"),
     ),
+    "loop": Subject(
+        "the nodes in real time: from a state to its commands, processor time and memory",
+        "deformable_manipulation.benchmarks.loop",
+    ),
 }

@@ -10,9 +10,9 @@ from std_srvs.srv import SetBool
 from visualization_msgs.msg import MarkerArray
 
 from deformable_manipulation.msg import ObjectState
+from deformable_manipulation.ros.launched_run import launch_command
 from deformable_manipulation.ros.node import BUFFER_SIZE
 from deformable_manipulation.ros.program import Program, ProgramError
-from deformable_manipulation.scenario import package_share_directory, scenario_to_yaml
 from deformable_manipulation.srv import Step
 
 _TIMEOUT = 60.0  # s of real time, for the nodes to start and for a cycle
@@ -33,19 +33,8 @@ def stepped_run(scenario, directory):
     Raises:
         ProgramError: it does not start.
     """
-    path = Path(directory) / (scenario.name + ".yaml")
-    path.write_text(scenario_to_yaml(scenario), encoding="utf-8")
-    options = {
-        "scenario": path,
-        "assistants": " ".join(scenario.agents[index].name for index in scenario.assistants),
-        "leader": scenario.agents[scenario.leader_index].name,
-        "lockstep": "true",
-        "stop_at_end": "false",
-        "rviz": "false",
-        "observers": 1,  # this one, so that the run does not start before it is paused
-    }
-    command = ["roslaunch", str(package_share_directory() / "launch" / "run.launch")]
-    command += [f"{name}:={value}" for name, value in options.items()]
+    # One observer, this process, so that the run does not start before it is paused.
+    command = launch_command(scenario, directory, lockstep="true", observers=1)
     with Program("the run", command, Path(directory) / "run.log") as program:
         yield SteppedRun(scenario, program)
 

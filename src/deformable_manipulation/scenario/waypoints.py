@@ -1,5 +1,6 @@
 """The ``leader`` section: the waypoints of its scripted path."""
 
+import math
 from typing import Tuple
 
 from deformable_manipulation.scenario.errors import show
@@ -11,6 +12,7 @@ WAYPOINT = Section(Waypoint, {"time": Number("s", at_least=0.0, at_most=1e6),
 
 
 _SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end
+_LARGEST_SPEED = 5.0  # m/s, mean between waypoints: twice that is refused as a command
 
 
 class Waypoints:
@@ -47,6 +49,18 @@ def _check_times(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
                     _SHORTEST_PIECE, before.time
                 ),
                 show(waypoint.time),
+            )
+        elif math.dist(waypoint.position, before.position) > _LARGEST_SPEED * (
+            waypoint.time - before.time
+        ):
+            node.report.add(
+                node.path + (str(index), "position"),
+                "must be at most {:.4g} m from the waypoint before, {:g} m/s in {:g} s".format(
+                    _LARGEST_SPEED * (waypoint.time - before.time),
+                    _LARGEST_SPEED,
+                    waypoint.time - before.time,
+                ),
+                show(list(waypoint.position)),
             )
 
 

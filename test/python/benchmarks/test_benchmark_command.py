@@ -136,3 +136,22 @@ def test_the_machine_is_described():
 def test_a_busy_machine_is_warned_about():
     assert load_warning(0.0) == ""
     assert "3.20" in load_warning(3.2) and load_warning(BUSY)
+
+
+def test_loop_measures_a_run_in_real_time(tmp_path, monkeypatch):
+    monkeypatch.setattr("deformable_manipulation.benchmarks.loop.SECONDS", {True: 2.0})
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        assert main(["loop", "--quick", "--output", str(tmp_path)]) == 0
+    tables = json.loads((tmp_path / "loop.json").read_text(encoding="utf-8"))["tables"]
+    (latency,) = tables["latency"]["rows"]
+    assert latency["assistant"] == "assistant_1" and latency["rate"] > 0.0
+    assert 0.0 < latency["median_ms"] <= latency["p99_ms"] <= latency["maximum_ms"]
+    nodes = {row["node"]: row for row in tables["load"]["rows"]}
+    assert set(nodes) == {
+        "simulator",
+        "minimum_distance",
+        "leader",
+        "assistant_1_controller",
+        "all",
+    }
+    assert min(row["memory"] for row in nodes.values()) > 1.0

@@ -48,6 +48,7 @@ WRONG_VALUES = [
     ("leader.waypoints.0.position", [0, 0, 1], "relative to the leader's start"),
     ("leader.waypoints.1.time", 0.0, "s later than the waypoint before"),
     ("leader.waypoints.1.time", 5e-324, "at least 0.001 s later than the waypoint before"),
+    ("leader.waypoints.1.position", [0, 99, 0], "m from the waypoint before, 5 m/s in"),
     ("controller.rate", 0, "a number"),
     ("controller.gain", -1, "-1 must be a number > 0 [1/s]"),
     ("controller.weights", [1, 1], "[x, y, z]"),

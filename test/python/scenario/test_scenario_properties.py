@@ -20,6 +20,8 @@ from deformable_manipulation.scenario import (
 positive = st.floats(1e-3, 1e9)
 coordinate = st.floats(-100.0, 100.0)
 point = st.lists(coordinate, min_size=3, max_size=3)
+# At most 4.9 m apart: in a second the leader comes from each to any other.
+waypoint = st.lists(st.floats(-1.4, 1.4), min_size=3, max_size=3)
 slopes = st.lists(st.floats(0.01, 49.0), min_size=2, max_size=2)
 
 
@@ -87,7 +89,7 @@ def scenario_mappings(draw):
     obstacles = draw(st.lists(obstacle, max_size=3))
     for index, section in enumerate(obstacles):
         section["name"] = "obstacle {}".format(index)
-    times = [0.0] + sorted(draw(st.sets(st.floats(0.1, 1e3), max_size=4)))
+    times = [0.0] + sorted(draw(st.sets(st.integers(1, 1000), max_size=4)))
     return {
         "name": draw(st.from_regex(r"[a-z0-9\u00e4~][ -.0-9A-Za-z\u00e4]{0,8}", fullmatch=True)),
         "object": {
@@ -105,7 +107,8 @@ def scenario_mappings(draw):
         "obstacles": obstacles,
         "leader": {
             "waypoints": [
-                {"time": time, "position": draw(point) if time else [0, 0, 0]} for time in times
+                {"time": time, "position": draw(waypoint) if time else [0, 0, 0]}
+                for time in times
             ]
         },
         "controller": {

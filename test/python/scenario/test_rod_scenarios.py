@@ -1,4 +1,4 @@
-"""The scenarios of a rod with one assistant are the ones that they are meant to be."""
+"""The scenarios of ropes and rods are the ones that they are meant to be."""
 
 import math
 
@@ -10,9 +10,10 @@ from deformable_manipulation.scenario import load_scenario, pair_limits
 from deformable_manipulation.simulation import make_simulation
 
 ROPE, STIFF_ROD = "rope_one_assistant", "stiff_rod_one_assistant"
+TWO_ASSISTANTS = "rope_two_assistants"
 
 
-@pytest.fixture(scope="module", params=(ROPE, STIFF_ROD))
+@pytest.fixture(scope="module", params=(ROPE, STIFF_ROD, TWO_ASSISTANTS))
 def scenario(request):
     return load_scenario(request.param)
 
@@ -22,26 +23,51 @@ def ground(scenario):
     return shapely.Polygon(scenario.obstacles[0].points)
 
 
-@pytest.mark.parametrize("name, moduli", [(ROPE, (3.0e7, 1.0e7)), (STIFF_ROD, (3.0e10, 1.0e10))])
-def test_material(name, moduli):
+@pytest.mark.parametrize(
+    "name, length, segments, moduli",
+    [
+        (ROPE, 2.25, 28, (3.0e7, 1.0e7)),
+        (STIFF_ROD, 2.25, 28, (3.0e10, 1.0e10)),
+        (TWO_ASSISTANTS, 3.25, 45, (3.0e7, 1.0e7)),
+    ],
+)
+def test_object(name, length, segments, moduli):
     rod = load_scenario(name).object
     assert (rod.young_modulus, rod.torsion_modulus) == moduli
-    assert (rod.length, rod.radius, rod.density, rod.segments) == (2.25, 0.0035, 1792.89, 28)
+    assert (rod.length, rod.radius, rod.density, rod.segments) == (
+        length,
+        0.0035,
+        1792.89,
+        segments,
+    )
 
 
-@pytest.mark.parametrize("name, hold, apart", [(ROPE, "clamped", 1.5), (STIFF_ROD, "pinned", 1.9)])
-def test_grips(name, hold, apart):
-    leader, assistant = load_scenario(name).agents
-    assert leader.hold == assistant.hold == hold
-    assert math.dist(leader.start, assistant.start) == pytest.approx(apart)
+@pytest.mark.parametrize(
+    "name, particles, hold, apart",
+    [
+        (ROPE, (0, 27), "clamped", 1.5),
+        (STIFF_ROD, (0, 27), "pinned", 1.9),
+        (TWO_ASSISTANTS, (0, 22, 44), "clamped", 1.15),
+    ],
+)
+def test_agents(name, particles, hold, apart):
+    """The leader at one end, neighbours equally far apart at equal height."""
+    agents = load_scenario(name).agents
+    assert tuple(agent.particle for agent in agents) == particles
+    assert [agent.role for agent in agents] == ["leader"] + ["assistant"] * (len(agents) - 1)
+    for agent, following in zip(agents, agents[1:]):
+        assert agent.hold == following.hold == hold
+        assert math.dist(agent.start, following.start) == pytest.approx(apart)
+        assert agent.start[2] == following.start[2]
 
 
-def test_agents_hold_the_ends_at_equal_height(scenario):
-    leader, assistant = scenario.agents
-    assert (leader.role, leader.particle) == ("leader", 0)
-    assert (assistant.role, assistant.particle) == ("assistant", 27)
-    assert leader.start[2] == assistant.start[2]
-    assert pair_limits(scenario, 0, 1).max_distance == pytest.approx(0.99 * 2.25 * 27 / 28)
+def test_agents_may_part_as_far_as_the_rod_between_them_reaches(scenario):
+    rod, agents = scenario.object, scenario.agents
+    for i, agent in enumerate(agents):
+        for j in range(i):
+            segments = agent.particle - agents[j].particle
+            longest = 0.99 * rod.length * segments / rod.segments
+            assert pair_limits(scenario, i, j).max_distance == pytest.approx(longest)
 
 
 def test_controller(scenario):

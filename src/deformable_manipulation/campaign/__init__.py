@@ -1,0 +1,1 @@
+"""Campaigns: many random runs of a scenario, and what came of them."""

@@ -1,0 +1,133 @@
+"""What came of one run, in the numbers that a campaign counts."""
+
+import dataclasses
+from dataclasses import dataclass
+from typing import Dict, Optional
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.recording.timeseries import TimeSeries, vector_columns
+from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.stretch import largest_stretch
+
+REST_SPEED = 1e-3  # m/s, a leader slower than this is at rest
+DEADLOCK_ERROR = 0.05  # m
+DEADLOCK_TIME = 3.0  # s
+OSCILLATION_FREQUENCY = 1.0  # Hz
+_FILTER_ORDER = 4
+_SHORTEST_STRETCH = 2.0  # s, of constrained motion: less has nothing to say about 1 Hz
+_RECOVERY = 10.0  # s, after which an assistant that was constrained has come back to its place
+
+
+@dataclass(frozen=True)
+class RunOutcome:
+    """The numbers of one run of a campaign. A violation is how far a limit was missed at worst."""
+
+    index: int  # of the run in its campaign
+    completed: bool  # False: the simulation broke down; then only what was until then counts
+    problem: str  # why it was not completed, or empty
+    min_distance: float  # m; inf: no obstacle
+    distance_violation: float  # m
+    overstretch_violation: float  # m
+    proximity_violation: float  # m
+    deadlock: bool  # an assistant stays away from its place though nothing is in the way
+    relaxed: int  # quadratic programs
+    failed: int
+    oscillation: float  # m RMS, of the distance above 1 Hz while an assistant is constrained
+    tracking_error: float  # m, largest of all assistants when none was constrained for 10 s
+    final_error: float  # m, largest of all assistants
+    constrained: float  # share of the run in which an assistant is constrained
+    shape_error: float  # largest relative change of the object's length
+
+    def to_mapping(self) -> Dict[str, object]:
+        """All fields by name."""
+        return dataclasses.asdict(self)
+
+
+def assess(
+    scenario: Scenario, series: TimeSeries, index: int = 0, problem: Optional[str] = None
+) -> RunOutcome:
+    """The :class:`RunOutcome` of a recorded run.
+
+    :param problem: why the run ended before its time, None for a whole one.
+    """
+    distance = series.column("distance")
+    status = _of_assistants(series, "status")
+    error = _of_assistants(series, "error_norm")
+    constrained = np.isin(status, (Status.CONSTRAINED, Status.RELAXED)).any(axis=0)
+    rate = scenario.controller.rate
+    offset = scenario.controller.collision.offset
+    lowest = float(distance.min(initial=np.inf))
+    return RunOutcome(
+        index=index,
+        completed=problem is None,
+        problem=problem or "",
+        min_distance=lowest,
+        distance_violation=max(0.0, offset - lowest),
+        overstretch_violation=_below_zero(_of_assistants(series, "h_overstretch")),
+        proximity_violation=_below_zero(_of_assistants(series, "h_proximity")),
+        deadlock=_is_deadlocked(scenario, series, error, distance),
+        relaxed=int(np.count_nonzero(status == Status.RELAXED)),
+        failed=int(np.count_nonzero(status == Status.FAILED)),
+        oscillation=oscillation(distance, constrained, rate),
+        tracking_error=float(error[:, _undisturbed(constrained, rate)].max(initial=0.0)),
+        final_error=float(error[:, -1:].max(initial=0.0)),
+        constrained=float(constrained.mean()) if constrained.size else 0.0,
+        shape_error=largest_stretch(series.column("stretch")) or 0.0,
+    )
+
+
+def oscillation(values: np.ndarray, where: np.ndarray, rate: float) -> float:
+    """Root mean square of what moves faster than 1 Hz, over the samples chosen.
+
+    Each unbroken stretch of chosen samples is filtered by itself, forwards and backwards
+    (Butterworth, of fourth order), so that what happens outside does not leak in.
+
+    :param values: (N,) samples; :param where: (N,) which of them count; :param rate: [Hz].
+    """
+    shortest = int(_SHORTEST_STRETCH * rate)
+    if rate <= 2.0 * OSCILLATION_FREQUENCY:
+        return 0.0
+    high_pass = butter(_FILTER_ORDER, OSCILLATION_FREQUENCY, "highpass", fs=rate, output="sos")
+    usable = where & np.isfinite(values)
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], usable, [False])).astype(int)))
+    square, count = 0.0, 0
+    for begin, end in zip(edges[::2], edges[1::2]):
+        if end - begin >= shortest:
+            fast = sosfiltfilt(high_pass, values[begin:end])
+            square += float(fast @ fast)
+            count += end - begin
+    return float(np.sqrt(square / count)) if count else 0.0
+
+
+def _undisturbed(constrained: np.ndarray, rate: float) -> np.ndarray:
+    """Samples (N,) that come at least the time of recovery after the last constrained one."""
+    samples = np.arange(len(constrained))
+    last = np.maximum.accumulate(np.where(constrained, samples, -len(samples) - 1))
+    return (samples - last > _RECOVERY * rate) | (last < 0)
+
+
+def _is_deadlocked(scenario, series, error, distance) -> bool:
+    """Whether an error stays above 5 cm for the last 3 s with the leader at rest in free space."""
+    last = int(DEADLOCK_TIME * scenario.controller.rate)
+    if not 0 < last <= len(series):
+        return False
+    leader = scenario.agents[scenario.leader_index].name
+    velocity = np.column_stack(
+        [series.column(f"{leader}.{name}") for name in vector_columns("velocity")]
+    )
+    at_rest = np.linalg.norm(velocity[-last:], axis=1).max() < REST_SPEED
+    collision = scenario.controller.collision
+    free = distance[-last:].min() > collision.offset + collision.band
+    return bool(at_rest and free and (error[:, -last:].min(axis=1) > DEADLOCK_ERROR).any())
+
+
+def _below_zero(margins: np.ndarray) -> float:
+    return max(0.0, -float(margins.min(initial=np.inf)))
+
+
+def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:
+    """A column of every assistant (assistants, rows)."""
+    return np.array([series.column(f"{name}.{column}") for name in series.assistants])

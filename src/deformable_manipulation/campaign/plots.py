@@ -1,0 +1,48 @@
+"""A campaign in one picture."""
+
+from typing import Sequence
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from deformable_manipulation.campaign.outcome import RunOutcome
+from deformable_manipulation.plotting import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
+
+_PANELS = (
+    ("clearance", "lowest distance\nminus offset [mm]"),
+    ("oscillation", "oscillation,\nRMS [mm]"),
+    ("final_error", "error at\nthe end [mm]"),
+)
+_HEIGHT = 3.4  # in
+
+
+def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> Figure:
+    """Empirical distributions over the runs; what is beyond a limit is drawn in another colour.
+
+    :param offset: distance to keep [m].
+    """
+    values = {
+        "clearance": _finite([outcome.min_distance - offset for outcome in outcomes]),
+        "oscillation": _finite([outcome.oscillation for outcome in outcomes]),
+        "final_error": _finite([outcome.final_error for outcome in outcomes]),
+    }
+    with rc_context(STYLE):
+        figure = Figure(figsize=(COLUMN_WIDTH, _HEIGHT), layout="constrained")
+        axes = figure.subplots(len(_PANELS), 1)
+        for axis, (key, label) in zip(axes, _PANELS):
+            millimetres = np.sort(1e3 * values[key])
+            share = (np.arange(len(millimetres)) + 1.0) / max(len(millimetres), 1)
+            axis.step(millimetres, share, where="post", color=BLUE)
+            axis.set_xlabel(label.replace("\n", " "))
+            axis.set_ylabel("share of runs")
+            axis.set_ylim(0.0, 1.02)
+            axis.set_xscale("symlog", linthresh=1.0)
+        axes[0].axvline(0.0, color=VERMILLION, linestyle="--", linewidth=0.8)
+        figure.suptitle(f"{name}: {len(outcomes)} runs")
+    return figure
+
+
+def _finite(values) -> np.ndarray:
+    values = np.array(values, dtype=float)
+    return values[np.isfinite(values)]

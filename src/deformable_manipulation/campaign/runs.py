@@ -1,0 +1,67 @@
+"""One run of a campaign, as any worker does it."""
+
+import math
+from dataclasses import dataclass
+
+from deformable_manipulation.campaign.outcome import RunOutcome, assess
+from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
+from deformable_manipulation.closed_loop import ClosedLoop
+from deformable_manipulation.recording.timeseries import TimeSeries
+from deformable_manipulation.scenario.spec import Scenario
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Everything that a worker needs to do any run of a campaign."""
+
+    scenario: Scenario
+    ranges: Ranges
+    seed: int
+    safety: bool = True
+
+    def run(self, index: int) -> RunOutcome:
+        """Do one run; what breaks the simulation down is told in the outcome, not raised."""
+        try:
+            scenario = vary(self.scenario, self.ranges, self.seed, index)
+        except NoVariation as error:
+            return _not_started(index, str(error))
+        series = SeriesRecorder(scenario)
+        problem = None
+        try:
+            ClosedLoop(scenario, self.safety).run(series)
+        except (RuntimeError, ValueError) as error:
+            problem = str(error)
+        return assess(scenario, series.series, index, problem)
+
+
+class SeriesRecorder:
+    """Keeps the table of a run, and no files."""
+
+    def __init__(self, scenario: Scenario):
+        names = tuple(agent.name for agent in scenario.agents)
+        assistants = tuple(names[index] for index in scenario.assistants)
+        self.series = TimeSeries(names, assistants, rows=scenario.cycles)
+
+    def record(self, record) -> None:
+        """Keep one cycle."""
+        self.series.append(record)
+
+
+def _not_started(index: int, problem: str) -> RunOutcome:
+    return RunOutcome(
+        index=index,
+        completed=False,
+        problem=problem,
+        min_distance=math.inf,
+        distance_violation=0.0,
+        overstretch_violation=0.0,
+        proximity_violation=0.0,
+        deadlock=False,
+        relaxed=0,
+        failed=0,
+        oscillation=0.0,
+        tracking_error=0.0,
+        final_error=0.0,
+        constrained=0.0,
+        shape_error=0.0,
+    )

@@ -1,0 +1,66 @@
+"""Random obstacles in place of a scenario's own ones."""
+
+import dataclasses
+import math
+from functools import singledispatch
+
+import numpy as np
+
+from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+
+_POINTS = 84  # of the surface of random hills
+_WAVES = 6
+_WAVELENGTHS = (0.8, 3.0)  # m
+_SHIFT = 0.2  # m, of a mesh along its level axes
+_SIZES = (0.7, 1.3)  # of a mesh, in multiples of its own
+
+
+@singledispatch
+def random_obstacle(obstacle, random: np.random.Generator):
+    """An obstacle of the same kind and of about the same size, in about the same place."""
+    raise TypeError(f"no random obstacles of the kind of {type(obstacle).__name__}")
+
+
+@random_obstacle.register
+def _hills(obstacle: PolygonObstacle, random: np.random.Generator) -> PolygonObstacle:
+    """Hills between the lowest and highest point of the polygon's upper side.
+
+    The surface is a sum of sines of random wavelengths, phases and heights; the ground below is as
+    deep as that of the polygon.
+    """
+    ring = np.array(obstacle.points)
+    left, deep = ring.min(axis=0)
+    right = ring[:, 0].max()
+    surface = ring[ring[:, 1] > deep + 0.5 * (ring[:, 1].max() - deep), 1]
+    along = np.linspace(left, right, _POINTS)
+    lengths = random.uniform(*_WAVELENGTHS, _WAVES)
+    waves = random.uniform(0.3, 1.0, _WAVES)[:, None] * np.sin(
+        2.0 * math.pi * (along / lengths[:, None] + random.uniform(size=(_WAVES, 1)))
+    )
+    heights = waves.sum(axis=0)
+    heights = (heights - heights.min()) / np.ptp(heights)
+    heights = surface.min() + heights * np.ptp(surface) * random.uniform(0.6, 1.0)
+    points = [*zip(along.tolist(), heights.tolist()), (right, deep), (left, deep)]
+    return dataclasses.replace(obstacle, points=tuple(map(tuple, points)))
+
+
+@random_obstacle.register
+def _moved_mesh(obstacle: MeshObstacle, random: np.random.Generator) -> MeshObstacle:
+    """The mesh moved in its plane, turned about the upright axis and changed in size."""
+    shift = np.append(random.uniform(-_SHIFT, _SHIFT, 2), 0.0)
+    half = 0.5 * random.uniform(-math.pi, math.pi)
+    x, y, z, w = obstacle.rotation
+    sine, cosine = math.sin(half), math.cos(half)
+    turned = (
+        cosine * x - sine * y,
+        cosine * y + sine * x,
+        cosine * z + sine * w,
+        cosine * w - sine * z,
+    )
+    size = random.uniform(*_SIZES)
+    return dataclasses.replace(
+        obstacle,
+        translation=tuple((np.array(obstacle.translation) + shift).tolist()),
+        rotation=turned,
+        scale=tuple(size * factor for factor in obstacle.scale),
+    )

@@ -1,0 +1,155 @@
+"""Random variations of a scenario, each from its number alone."""
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from functools import singledispatch
+
+import numpy as np
+
+from deformable_manipulation.campaign.leader_paths import NoPath, random_path
+from deformable_manipulation.campaign.terrain import random_obstacle
+from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.scenario import scenario_from_mapping
+from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.scenario.mapping import scenario_to_mapping
+from deformable_manipulation.scenario.spec import FabricSpec, LeaderSpec, RodSpec, Scenario
+from deformable_manipulation.simulation import make_simulation
+
+_ATTEMPTS = 20
+_BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in
+_START_SHIFT = 0.05  # m, of an assistant's start
+_SPARE = 0.05  # m, beyond the offset, that the object is clear at the start
+
+
+class NoVariation(RuntimeError):
+    """No random variation of a scenario was found that can be started."""
+
+
+@dataclass(frozen=True)
+class Ranges:
+    """What is random in a campaign, and how much."""
+
+    speed: float = 0.1  # m/s, that no component of the leader's velocity exceeds
+    duration: float = 90.0  # s
+    clearance: float = 0.25  # m, that the leader's grip keeps from the obstacles
+    material: float = 1.5  # stiffness and weight are changed by up to this factor
+    terrain: bool = True  # False: the scenario's own obstacles
+
+
+def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
+    """The variation of a scenario that belongs to a seed and the number of the run.
+
+    It depends on nothing else: not on who makes it, nor on the runs before.
+
+    Raises NoVariation.
+    """
+    reason = ""
+    for attempt in range(_ATTEMPTS):
+        random = np.random.default_rng([seed, index, attempt])
+        try:
+            varied = _checked(_draw(scenario, ranges, random), index)
+        except (NoPath, ScenarioError) as error:
+            reason = str(error)
+            continue
+        if _starts_clear(varied):
+            return varied
+        reason = "the object starts too near to the obstacles"
+    raise NoVariation(
+        f"run {index}: none of {_ATTEMPTS} random variations can be started: {reason}"
+    )
+
+
+def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
+    obstacles = scenario.obstacles
+    if ranges.terrain:
+        obstacles = tuple(random_obstacle(obstacle, random) for obstacle in obstacles)
+    drawn = dataclasses.replace(
+        scenario,
+        object=_other_material(scenario.object, ranges.material, random),
+        obstacles=obstacles,
+        agents=tuple(_other_start(agent, random) for agent in scenario.agents),
+        simulation=dataclasses.replace(scenario.simulation, duration=ranges.duration),
+    )
+    low, high = _box(scenario)
+    start = np.array(drawn.agents[drawn.leader_index].start)
+    clearance = _clearance(drawn)
+    path = random_path(
+        random,
+        low,
+        high,
+        ranges.speed,
+        ranges.duration,
+        lambda points: clearance(start + points),
+        ranges.clearance,
+    )
+    return dataclasses.replace(drawn, leader=LeaderSpec(tuple(path)))
+
+
+def _checked(scenario: Scenario, index: int) -> Scenario:
+    """The scenario as its file would be read. Raises ScenarioError."""
+    named = dataclasses.replace(scenario, name=f"{scenario.name}_{index:05d}")
+    return scenario_from_mapping(scenario_to_mapping(named), ".")
+
+
+def _box(scenario: Scenario):
+    """Corners [m] of the box around the scenario's own path, relative to the leader's start."""
+    path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
+    return path.min(axis=0) - _BOX_GROWTH, path.max(axis=0) + _BOX_GROWTH
+
+
+def _other_start(agent, random):
+    """The leader starts where it is; an assistant near its place."""
+    if agent.role == "leader":
+        return agent
+    shift = random.uniform(-_START_SHIFT, _START_SHIFT, 3)
+    return dataclasses.replace(agent, start=tuple((np.array(agent.start) + shift).tolist()))
+
+
+@singledispatch
+def _other_material(spec, factor: float, random):
+    raise TypeError(f"no random material for {type(spec).__name__}")
+
+
+@_other_material.register
+def _(spec: RodSpec, factor: float, random) -> RodSpec:
+    stiffness = _factor(factor, random)
+    return dataclasses.replace(
+        spec,
+        young_modulus=stiffness * spec.young_modulus,
+        torsion_modulus=stiffness * spec.torsion_modulus,
+        density=_factor(factor, random) * spec.density,
+    )
+
+
+@_other_material.register
+def _(spec: FabricSpec, factor: float, random) -> FabricSpec:
+    return dataclasses.replace(
+        spec,
+        stretching_compliance=_factor(factor, random) * spec.stretching_compliance,
+        bending_compliance=_factor(factor, random) * spec.bending_compliance,
+        density=_factor(factor, random) * spec.density,
+    )
+
+
+def _factor(largest: float, random) -> float:
+    """Between 1 / largest and largest, as likely to lessen as to enlarge."""
+    return math.exp(random.uniform(-1.0, 1.0) * math.log(largest))
+
+
+def _clearance(scenario: Scenario):
+    """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size."""
+    distance = PlanarMinimumDistance(scenario.obstacles, scenario.object.radius)
+
+    def clearance(points):
+        # Each point as a copy of a polyline that is nowhere else.
+        return distance.compute(np.repeat(points[:, None], 2, axis=1)).minimum
+
+    return clearance
+
+
+def _starts_clear(scenario: Scenario) -> bool:
+    distance = make_minimum_distance(scenario)
+    lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
+    return lowest >= scenario.controller.collision.offset + _SPARE

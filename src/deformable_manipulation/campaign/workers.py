@@ -1,0 +1,99 @@
+"""Who does the runs of a campaign: the cores of this machine, or a cluster.
+
+A run depends on the campaign and its number alone, so it does not matter who does it, in which
+order, or whether it is done again after its worker was lost. (Processors with other vector
+instructions round differently; docs/safety.md.)
+"""
+
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import Iterator, Sequence
+
+from deformable_manipulation.campaign.outcome import RunOutcome
+from deformable_manipulation.campaign.runs import Campaign
+
+_TRIES = 3  # of a run whose workers are lost
+
+
+class WorkersLost(RuntimeError):
+    """Runs could not be done because their workers ended again and again."""
+
+
+def run_here(campaign: Campaign, indices: Sequence[int], workers: int) -> Iterator[RunOutcome]:
+    """Do runs in processes of this machine; yields the outcomes as they come.
+
+    A worker that is killed takes its pool with it: the runs that have no outcome yet are done again
+    in a new one.
+
+    Raises WorkersLost.
+    """
+    open_runs = set(indices)
+    for _ in range(_TRIES):
+        try:
+            for outcome in _in_one_pool(campaign, sorted(open_runs), workers):
+                open_runs.discard(outcome.index)
+                yield outcome
+            return
+        except BrokenProcessPool:
+            continue
+    raise WorkersLost(
+        f"workers ended {_TRIES} times, killed perhaps for want of memory; {len(open_runs)} runs "
+        f"are not done, the first of them {min(open_runs)}. Fewer --workers may help"
+    )
+
+
+def _in_one_pool(campaign, indices, workers) -> Iterator[RunOutcome]:
+    # Not spawned: in a devel space a fresh interpreter that gets this one's path finds the sources
+    # before the package with the compiled modules.
+    context = multiprocessing.get_context("fork")
+    pool = ProcessPoolExecutor(workers, context, _start_worker, (campaign,))
+    try:
+        futures = [pool.submit(_run, index) for index in indices]
+        for future in as_completed(futures):
+            yield future.result()
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+_campaign = None  # of this worker process
+
+
+def _start_worker(campaign: Campaign) -> None:
+    global _campaign
+    _campaign = campaign
+
+
+def _run(index: int) -> RunOutcome:
+    return _campaign.run(index)
+
+
+def run_on_cluster(
+    campaign: Campaign, indices: Sequence[int], address: str
+) -> Iterator[RunOutcome]:
+    """Do runs on the workers of a Dask scheduler; yields the outcomes as they come.
+
+    Dask gives the runs of a lost worker to another one. The workers need this package.
+
+    Raises WorkersLost; OSError: the scheduler cannot be reached.
+    """
+    from dask import distributed  # optional
+
+    with distributed.Client(address, timeout=10) as client:
+        shared = client.scatter(campaign, broadcast=True)
+        futures = client.map(Campaign.run, [shared] * len(indices), indices, pure=False)
+        for future in distributed.as_completed(futures):
+            if future.status == "error" and isinstance(
+                future.exception(), distributed.KilledWorker
+            ):
+                raise WorkersLost(
+                    f"a run was given to several workers and all of them ended: "
+                    f"{future.exception()}"
+                )
+            yield future.result()
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0))

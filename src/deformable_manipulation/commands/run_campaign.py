@@ -1,0 +1,232 @@
+"""Runs a scenario many times with random variations and counts what went wrong."""
+
+import argparse
+import csv
+import dataclasses
+import json
+import sys
+import time
+from pathlib import Path
+from typing import List, Optional, Sequence
+
+from deformable_manipulation.campaign import workers
+from deformable_manipulation.campaign.outcome import RunOutcome
+from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
+from deformable_manipulation.campaign.runs import Campaign
+from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
+from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.recording.provenance import machine, package_version
+from deformable_manipulation.recording.run_files import atomic_file
+from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_to_yaml
+from deformable_manipulation.scenario.spec import Scenario
+
+DESCRIPTION = """Run a scenario many times, without ROS, each time with another smooth random path
+of the leader, other obstacles of the same kind, other starts and another material, and count
+violated limits, deadlocks, relaxed programs and oscillation. The same seed gives the same runs,
+whoever does them. Writes campaign.json, runs.csv, campaign.png and worst.yaml, the scenario of the
+worst run.
+"""
+EPILOG = """examples:
+  run_campaign rope_one_assistant --runs 200 --seed 1
+  run_campaign rope_two_assistants --runs 50 --speed 0.15 --output output/fast
+  run_campaign rope_one_assistant --runs 2000 --cluster tcp://10.0.0.1:8786
+  run_scenario output/fast/worst.yaml      # the worst run again
+
+The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
+deadlocked, and no program failed; 3 otherwise.
+"""
+UNACCEPTABLE = 3  # exit status: the campaign was done, and something in it went wrong
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit code."""
+    arguments = _parse(argv)
+    try:
+        scenario = load_scenario(arguments.scenario, arguments.set)
+        campaign = Campaign(scenario, _ranges(arguments), arguments.seed, arguments.safety)
+        vary(scenario, campaign.ranges, campaign.seed, 0)  # what cannot be varied fails at once
+        folder = _prepare(arguments, scenario)
+    except (ScenarioError, NoVariation, OSError) as error:
+        print(f"run_campaign: {error}", file=sys.stderr)
+        return 1
+    with interruptible():
+        return _run(campaign, arguments, folder)
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="run_campaign",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_scenario_arguments(parser)
+    defaults = Ranges()
+    parser.add_argument("--runs", type=_positive(int), default=100, metavar="N")
+    parser.add_argument("--seed", type=_natural, default=0, metavar="S", help="0 or more")
+    parser.add_argument(
+        "--speed",
+        type=_positive(float),
+        default=defaults.speed,
+        metavar="M/S",
+        help="that no component of the leader's velocity exceeds (%(default)s)",
+    )
+    parser.add_argument(
+        "--duration",
+        type=_positive(float),
+        default=defaults.duration,
+        metavar="S",
+        help="of each run (%(default)s)",
+    )
+    parser.add_argument(
+        "--clearance",
+        type=_positive(float),
+        default=defaults.clearance,
+        metavar="M",
+        help="that the leader's grip keeps from the obstacles (%(default)s)",
+    )
+    parser.add_argument(
+        "--material",
+        type=_factor,
+        default=defaults.material,
+        metavar="FACTOR",
+        help="stiffness and weight are changed by up to this factor (%(default)s)",
+    )
+    parser.add_argument(
+        "--own-terrain",
+        dest="terrain",
+        action="store_false",
+        help="keep the obstacles of the scenario",
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=0.001,
+        metavar="M",
+        help="up to which a violation does not count (%(default)s)",
+    )
+    parser.add_argument(
+        "--workers", type=_positive(int), metavar="N", help="processes (default: one per core)"
+    )
+    parser.add_argument(
+        "--cluster", metavar="ADDRESS", help="of a Dask scheduler whose workers do the runs"
+    )
+    parser.add_argument(
+        "--no-safety", dest="safety", action="store_false", help="switch the safety filter off"
+    )
+    parser.add_argument(
+        "--output", metavar="DIR", help="default: output/campaign_<scenario>_<time>"
+    )
+    return parser.parse_args(argv)
+
+
+def _positive(kind):
+    def convert(text):
+        value = kind(text)
+        if not 0 < value < float("inf"):
+            raise argparse.ArgumentTypeError(f"'{text}': must be more than 0")
+        return value
+
+    convert.__name__ = "number"
+    return convert
+
+
+def _natural(text):
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"'{text}': must be 0 or more")
+    return value
+
+
+def _factor(text):
+    value = float(text)
+    if not 1.0 <= value <= 100.0:
+        raise argparse.ArgumentTypeError(f"'{text}': must be 1 (no change) to 100")
+    return value
+
+
+def _ranges(arguments: argparse.Namespace) -> Ranges:
+    names = [field.name for field in dataclasses.fields(Ranges)]
+    return Ranges(**{name: getattr(arguments, name) for name in names})
+
+
+def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
+    default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
+    folder = Path(arguments.output) if arguments.output else default
+    folder.mkdir(parents=True, exist_ok=True)
+    if (folder / "campaign.json").exists():
+        raise FileExistsError(f"{folder} holds a campaign already; choose another --output")
+    return folder
+
+
+def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int:
+    """Do the runs; what has been done is written, whatever ends them."""
+    outcomes: List[RunOutcome] = []
+    progress = ProgressDisplay(sys.stderr)
+    started = time.perf_counter()
+    code = 0
+    try:
+        for outcome in _outcomes(campaign, arguments):
+            outcomes.append(outcome)
+            progress(len(outcomes) / arguments.runs)
+    except KeyboardInterrupt as interrupt:
+        code = exit_status(interrupt)
+    except (workers.WorkersLost, OSError, ImportError) as error:
+        print(f"\nrun_campaign: {error}", file=sys.stderr)
+        code = 1
+    finally:
+        progress.close()
+    if not outcomes:
+        return code or 1
+    outcomes.sort(key=lambda outcome: outcome.index)
+    summary = summarise(outcomes, arguments.tolerance)
+    _write(campaign, arguments, outcomes, summary, time.perf_counter() - started, folder)
+    print(describe(summary))
+    print(f"written to {folder}; the worst run: run_scenario {folder / 'worst.yaml'}")
+    return code or (0 if is_acceptable(summary) else UNACCEPTABLE)
+
+
+def _outcomes(campaign: Campaign, arguments: argparse.Namespace):
+    if arguments.cluster:
+        return workers.run_on_cluster(campaign, range(arguments.runs), arguments.cluster)
+    count = arguments.workers or workers.cores()
+    return workers.run_here(campaign, range(arguments.runs), count)
+
+
+def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> None:
+    from deformable_manipulation.campaign.plots import plot_campaign
+    from deformable_manipulation.plotting import save_figure
+
+    content = {
+        "scenario": campaign.scenario.name,
+        "seed": campaign.seed,
+        "safety": campaign.safety,
+        "ranges": dataclasses.asdict(campaign.ranges),
+        "summary": summary,
+        "wall_time": wall_time,
+        "version": package_version(),
+        "machine": machine(),
+    }
+    with atomic_file(folder / "campaign.json") as file:
+        json.dump(content, file, indent=2)
+        file.write("\n")
+    with atomic_file(folder / "runs.csv") as file:
+        table = csv.DictWriter(file, [field.name for field in dataclasses.fields(RunOutcome)])
+        table.writeheader()
+        table.writerows(outcome.to_mapping() for outcome in outcomes)
+    bad = worst(outcomes).index
+    try:
+        varied = vary(campaign.scenario, campaign.ranges, campaign.seed, bad)
+    except NoVariation as error:
+        print(f"run_campaign: {error}", file=sys.stderr)
+    else:
+        with atomic_file(folder / "worst.yaml") as file:
+            file.write(scenario_to_yaml(varied))
+    offset = campaign.scenario.controller.collision.offset
+    save_figure(plot_campaign(outcomes, offset, campaign.scenario.name), folder / "campaign.png")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

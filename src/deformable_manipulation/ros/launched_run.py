@@ -1,0 +1,30 @@
+"""How a run of a checked scenario is launched."""
+
+from pathlib import Path
+
+from deformable_manipulation.scenario import package_share_directory, scenario_to_yaml
+
+
+def launch_command(scenario, directory, **options):
+    """The roslaunch command of a run, on this process's master, without RViz.
+
+    Args:
+        scenario: the checked scenario.
+        directory: existing folder, into which its file is written.
+        options: arguments of run.launch.
+
+    Returns:
+        Program and arguments.
+    """
+    path = Path(directory) / (scenario.name + ".yaml")
+    path.write_text(scenario_to_yaml(scenario), encoding="utf-8")
+    options = {
+        "scenario": path,
+        "assistants": " ".join(scenario.agents[index].name for index in scenario.assistants),
+        "leader": scenario.agents[scenario.leader_index].name,
+        "stop_at_end": "false",
+        "rviz": "false",
+        **options,
+    }
+    launch_file = package_share_directory() / "launch" / "run.launch"
+    return ["roslaunch", str(launch_file), *(f"{name}:={value}" for name, value in options.items())]

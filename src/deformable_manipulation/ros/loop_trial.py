@@ -1,0 +1,133 @@
+"""A run in real time, watched from outside: latency of the commands, load of the nodes."""
+
+import subprocess
+import time
+import xmlrpc.client
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Tuple
+
+import numpy as np
+import rosgraph
+from rosbags.rosbag1 import Reader
+from rosbags.typesys import Stores, get_typestore
+
+from deformable_manipulation.ros.launched_run import launch_command
+from deformable_manipulation.ros.process_usage import usage_of
+from deformable_manipulation.ros.program import Program, ProgramError
+
+_START = 120.0  # s, for the object to settle and all nodes to work
+_WARM_UP = 3.0  # s
+_PATIENCE = 30.0  # s, beyond the recording's length
+_CALLER = "/loop_trial"
+
+
+@dataclass(frozen=True)
+class NodeLoad:
+    """What one node took of the machine."""
+
+    share: float  # of one core
+    memory: int  # bytes (PSS) at the end
+
+
+@dataclass(frozen=True)
+class Commands:
+    """The N commands of an assistant, in their order."""
+
+    stamps: np.ndarray  # (N,) s, of the states that they answer
+    latencies: np.ndarray  # (N,) s, from the stamp to the receipt
+
+    @property
+    def rate(self) -> float:
+        """Commands per second [Hz]; nan for fewer than two."""
+        return (len(self.stamps) - 1) / np.ptp(self.stamps) if len(self.stamps) > 1 else np.nan
+
+    def answered(self, rate: float) -> float:
+        """The share of the states, of which there are ``rate`` per second [Hz], that got one."""
+        return len(self.stamps) / (round(np.ptp(self.stamps) * rate) + 1)
+
+
+@dataclass(frozen=True)
+class LoopMeasurement:
+    """Commands and loads of a run in real time."""
+
+    commands: Dict[str, Commands]  # by assistant
+    nodes: Dict[str, NodeLoad]
+
+
+def watch_loop(scenario, directory, seconds: float) -> LoopMeasurement:
+    """Run a scenario in real time and measure it.
+
+    The commands are recorded by ``rosbag record``, a process of its own, whose time of receipt is
+    compared with the stamp of the state that a command answers.
+
+    Args:
+        scenario: the checked scenario.
+        directory: existing folder for files.
+        seconds: how long it is measured.
+
+    Raises:
+        ProgramError: the run does not start or ends by itself.
+    """
+    directory = Path(directory)
+    assistants = [scenario.agents[index].name for index in scenario.assistants]
+    nodes = ["simulator", "minimum_distance", "leader"]
+    nodes += [f"{name}_controller" for name in assistants]
+    command = launch_command(scenario, directory, lockstep="false")
+    with Program("the run", command, directory / "run.log") as run:
+        topics = [f"/{name}/cmd_vel" for name in assistants]
+        _record(topics, _START, directory / "first.bag", limit=1)  # all of them work
+        run.check()
+        pids = {node: _pid_of(node) for node in nodes}
+        _record(topics, _WARM_UP, directory / "warm_up.bag")
+        before = {node: usage_of(pid) for node, pid in pids.items()}
+        started = time.monotonic()
+        _record(topics, seconds, directory / "commands.bag")
+        elapsed = time.monotonic() - started
+        after = {node: usage_of(pid) for node, pid in pids.items()}
+        run.check()
+    loads = {
+        node: NodeLoad(
+            (after[node].processor - before[node].processor) / elapsed, after[node].memory
+        )
+        for node in nodes
+    }
+    return LoopMeasurement(_read_commands(directory / "commands.bag", assistants), loads)
+
+
+def _record(topics: List[str], seconds: float, path: Path, limit=None) -> None:
+    """Record topics for a time, or until there are ``limit`` messages of each."""
+    command = ["rosbag", "record", "--quiet", "--tcpnodelay", "-O", str(path)]
+    command += ["--duration", str(seconds)] + (["--limit", str(limit)] if limit else []) + topics
+    try:
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds + _PATIENCE
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise ProgramError(f"the commands cannot be recorded: {error}") from error
+    if done.returncode != 0 or not path.exists():
+        printed = done.stdout.decode(errors="replace").strip()
+        raise ProgramError(f"the commands cannot be recorded: {printed or done.returncode}")
+
+
+def _pid_of(node: str) -> int:
+    try:
+        address = rosgraph.Master(_CALLER).lookupNode("/" + node)
+        with xmlrpc.client.ServerProxy(address) as api:
+            return api.getPid(_CALLER)[2]
+    except (rosgraph.MasterException, OSError, xmlrpc.client.Error) as error:
+        raise ProgramError(f"the node {node} does not answer: {error}") from error
+
+
+def _read_commands(path: Path, assistants) -> Dict[str, Commands]:
+    types = get_typestore(Stores.ROS1_NOETIC)
+    found: Dict[str, List[Tuple[int, int]]] = {name: [] for name in assistants}
+    with Reader(path) as reader:
+        for connection, received, data in reader.messages():
+            stamp = types.deserialize_ros1(data, connection.msgtype).header.stamp
+            sent = stamp.sec * 10**9 + stamp.nanosec
+            found[connection.topic.split("/")[1]].append((sent, received - sent))
+    missing = [name for name, pairs in found.items() if not pairs]
+    if missing:
+        raise ProgramError(f"no commands came from {', '.join(missing)}")
+    return {name: Commands(*(1e-9 * np.array(pairs).T)) for name, pairs in found.items()}

@@ -1,0 +1,144 @@
+"""The command run_campaign: a small campaign in processes of this machine and on a cluster."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from deformable_manipulation.campaign import workers
+from deformable_manipulation.campaign.runs import Campaign
+from deformable_manipulation.campaign.variation import Ranges
+from deformable_manipulation.commands import run_campaign, run_scenario
+from deformable_manipulation.scenario import load_scenario
+
+SHORT = ["rope_one_assistant", "--seed", "5", "--duration", "45", "--speed", "0.15"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("campaign") / "three"
+    assert run_campaign.main([*SHORT, "--runs", "3", "--output", str(folder)]) == 0
+    return folder
+
+
+def outcomes(folder):
+    with open(folder / "runs.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_run_has_its_row(folder):
+    rows = outcomes(folder)
+    assert [int(row["index"]) for row in rows] == [0, 1, 2]
+    assert {row["completed"] for row in rows} == {"True"}
+
+
+def test_the_runs_are_kept_safe_and_are_no_child_s_play(folder):
+    content = json.loads((folder / "campaign.json").read_text())
+    summary = content["summary"]
+    assert summary["runs"] == 3 and summary["not_completed"] == summary["deadlocks"] == 0
+    assert {each["runs"] for each in summary["violations"].values()} == {0}
+    assert summary["constrained"]["most"] > 0.05
+    assert (folder / "campaign.png").stat().st_size > 10000
+
+
+def test_the_worst_run_is_repeated_by_its_file(folder, tmp_path):
+    repeated = tmp_path / "again"
+    assert run_scenario.main([str(folder / "worst.yaml"), "--output", str(repeated)]) == 0
+    lowest = json.loads((repeated / "summary.json").read_text())["min_distance"]
+    name = json.loads((repeated / "summary.json").read_text())["scenario"]
+    row = outcomes(folder)[int(name.rsplit("_", 1)[1])]
+    assert lowest == pytest.approx(float(row["min_distance"]), abs=1e-9)
+
+
+def test_without_the_filter_the_campaign_is_not_acceptable(tmp_path):
+    arguments = [*SHORT, "--runs", "3", "--no-safety", "--set", "controller.rate=20"]
+    code = run_campaign.main([*arguments, "--output", str(tmp_path / "unsafe")])
+    assert code == run_campaign.UNACCEPTABLE
+
+
+def test_an_older_campaign_is_not_overwritten(folder, capsys):
+    assert run_campaign.main([*SHORT, "--runs", "1", "--output", str(folder)]) == 1
+    assert "holds a campaign already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "wrong, text",
+    [
+        (["--runs", "0"], "must be more than 0"),
+        (["--runs", "many"], "invalid number"),
+        (["--speed", "nan"], "must be more than 0"),
+        (["--seed", "-1"], "must be 0 or more"),
+        (["--material", "0.5"], "must be 1"),
+    ],
+)
+def test_wrong_arguments_are_refused(wrong, text, capsys):
+    with pytest.raises(SystemExit) as ended:
+        run_campaign.main([*SHORT, *wrong])
+    assert ended.value.code == 2 and text in capsys.readouterr().err
+
+
+def test_what_cannot_be_varied_fails_before_anything_is_written(tmp_path, capsys):
+    arguments = [*SHORT, "--clearance", "9", "--output", str(tmp_path / "none")]
+    assert run_campaign.main(arguments) == 1
+    assert "9 m clear" in capsys.readouterr().err
+    assert not (tmp_path / "none").exists()
+
+
+class Suicidal(Campaign):
+    """A campaign whose second run kills its worker the first time."""
+
+    def run(self, index):
+        flag = os.environ["CAMPAIGN_TEST_FLAG"]
+        if index == 1 and not os.path.exists(flag):
+            open(flag, "w").close()
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().run(index)
+
+
+def test_the_runs_of_a_killed_worker_are_done_again(tmp_path, monkeypatch):
+    monkeypatch.setenv("CAMPAIGN_TEST_FLAG", str(tmp_path / "killed"))
+    scenario = load_scenario("rope_one_assistant", [("controller.rate", "20")])
+    campaign = Suicidal(scenario, Ranges(speed=0.15, duration=45.0), seed=1, safety=False)
+    found = list(workers.run_here(campaign, range(3), 2))
+    assert (tmp_path / "killed").exists()
+    assert sorted(outcome.index for outcome in found) == [0, 1, 2]
+
+
+@pytest.fixture
+def cluster():
+    """Address of a Dask scheduler with two workers, all processes of their own."""
+    pytest.importorskip("distributed")
+    processes = []
+
+    def start(*arguments):
+        command = [sys.executable, "-m", "distributed.cli." + arguments[0], *arguments[1:]]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        processes.append(process)
+        return process
+
+    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    address = next(
+        line.split()[-1] for line in scheduler.stderr if "Scheduler at:" in line
+    ).strip()
+    for _ in range(2):
+        start("dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+    yield address
+    for process in processes:
+        process.kill()
+        process.communicate()
+
+
+def test_a_cluster_gives_the_same_outcomes(folder, cluster, tmp_path):
+    arguments = [*SHORT, "--runs", "3", "--output", str(tmp_path / "cluster")]
+    assert run_campaign.main([*arguments, "--cluster", cluster]) == 0
+    assert outcomes(tmp_path / "cluster") == outcomes(folder)
+
+
+def test_a_cluster_that_is_not_there(tmp_path, capsys):
+    arguments = [*SHORT, "--runs", "1", "--output", str(tmp_path / "none")]
+    assert run_campaign.main([*arguments, "--cluster", "tcp://127.0.0.1:9"]) == 1
+    assert "run_campaign:" in capsys.readouterr().err

@@ -1,0 +1,110 @@
+"""Random variations: what they change, what they keep, and that they repeat."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from deformable_manipulation.campaign.leader_paths import NoPath, random_path
+from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
+from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.leader import LeaderPath
+from deformable_manipulation.scenario import load_scenario
+from deformable_manipulation.simulation import make_simulation
+
+RANGES = Ranges(speed=0.15, duration=60.0)
+
+
+@pytest.fixture(scope="module", params=("rope_one_assistant", "rope_two_assistants"))
+def scenario(request):
+    return load_scenario(request.param)
+
+
+@pytest.fixture(scope="module")
+def varied(scenario):
+    return [vary(scenario, RANGES, 7, index) for index in range(5)]
+
+
+def test_the_same_number_gives_the_same_variation(scenario, varied):
+    assert vary(scenario, RANGES, 7, 3) == varied[3]
+
+
+def test_other_numbers_and_seeds_give_others(scenario, varied):
+    paths = {each.leader for each in varied} | {vary(scenario, RANGES, 8, 3).leader}
+    assert len(paths) == 6
+
+
+def test_the_leader_goes_no_faster_than_asked_and_rests_at_both_ends(varied):
+    for each in varied:
+        path = LeaderPath(each.leader.waypoints)
+        velocity = path.velocity(np.linspace(0.0, RANGES.duration, 5000))
+        assert 0.5 * RANGES.speed < np.abs(velocity).max() <= 1.01 * RANGES.speed
+        assert each.leader.waypoints[-1].time <= RANGES.duration - 10.0
+        assert each.leader.waypoints[-1].position == (0.0, 0.0, 0.0)
+
+
+def test_the_leader_s_grip_stays_clear(varied):
+    for each in varied:
+        start = np.array(each.agents[0].start)
+        times = np.linspace(0.0, RANGES.duration, 2000)
+        points = start + LeaderPath(each.leader.waypoints).position(times)
+        compute = make_minimum_distance(each).compute
+        copies = np.repeat(points[:, None], each.object.segments + 1, axis=1)
+        assert compute(copies).minimum.min() > RANGES.clearance - 0.01
+
+
+def test_the_object_starts_clear_of_the_obstacles(varied):
+    for each in varied:
+        settled = make_simulation(each).points()[:1]
+        lowest = make_minimum_distance(each).compute(settled).minimum[0]
+        assert lowest > each.controller.collision.offset
+
+
+def test_material_terrain_and_starts_are_others(scenario, varied):
+    for each in varied:
+        factor = each.object.young_modulus / scenario.object.young_modulus
+        assert 1.0 / RANGES.material <= factor <= RANGES.material and factor != 1.0
+        assert each.obstacles != scenario.obstacles
+        assert each.agents[0].start == scenario.agents[0].start
+        assert each.agents[1].start != scenario.agents[1].start
+
+
+def test_what_is_not_to_change_stays(scenario):
+    ranges = dataclasses.replace(RANGES, material=1.0, terrain=False)
+    varied = vary(scenario, ranges, 0, 0)
+    assert varied.object == scenario.object and varied.obstacles == scenario.obstacles
+    assert varied.controller == scenario.controller
+
+
+def test_a_clearance_that_no_path_keeps_is_an_error(scenario):
+    with pytest.raises(NoVariation, match="keeps the leader 9 m clear"):
+        vary(scenario, dataclasses.replace(RANGES, clearance=9.0), 0, 0)
+
+
+def test_a_time_that_is_too_short_is_an_error(scenario):
+    with pytest.raises(NoVariation, match="20 s are too short"):
+        vary(scenario, dataclasses.replace(RANGES, duration=20.0), 0, 0)
+
+
+def test_a_path_leaves_its_box_never():
+    low, high = np.array([-0.1, 0.0, -1.0]), np.array([0.1, 2.0, 0.0])
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        waypoints = random_path(
+            random, low, high, 0.1, 90.0, lambda points: np.ones(len(points)), 0.5
+        )
+        points = LeaderPath(waypoints).position(np.linspace(0.0, 90.0, 500))
+        assert (points >= low - 1e-12).all() and (points <= high + 1e-12).all()
+
+
+def test_no_path_where_everything_is_near():
+    with pytest.raises(NoPath):
+        random_path(
+            np.random.default_rng(0),
+            np.zeros(3),
+            np.ones(3),
+            0.1,
+            60.0,
+            lambda points: np.zeros(len(points)),
+            0.1,
+        )
