@@ -2,6 +2,8 @@
 
 #include "fabric_kernel.h"
 
+#include <utility>
+
 #include "lane_math.h"
 
 namespace deformable_manipulation {
@@ -53,9 +55,9 @@ class FabricPack {
     for (std::ptrdiff_t i = 0; i < in_.vertices; ++i) {
       const std::ptrdiff_t at = 3 * kLanes * i;
       Vec3 x = load3(position_ + at, kLanes);
-      store3(previous_ + at, kLanes, x);
-      store3(position_ + at, kLanes, scaleAdd(h, fall + load3(velocity_ + at, kLanes), x));
+      store3(previous_ + at, kLanes, scaleAdd(h, fall + load3(velocity_ + at, kLanes), x));
     }
+    std::swap(position_, previous_);
   }
 
   //! The end of a substep and the prediction of the next one.
@@ -66,9 +68,9 @@ class FabricPack {
       const std::ptrdiff_t at = 3 * kLanes * i;
       Vec3 x = load3(position_ + at, kLanes);
       Vec3 moved = x - load3(previous_ + at, kLanes);
-      store3(previous_ + at, kLanes, x);
-      store3(position_ + at, kLanes, scaleAdd(broadcast(in_.decay[i]), moved, scaleAdd(h, carried(i, change), x)));
+      store3(previous_ + at, kLanes, scaleAdd(broadcast(in_.decay[i]), moved, scaleAdd(h, carried(i, change), x)));
     }
+    std::swap(position_, previous_);
   }
 
   void finish(int substep) {
@@ -87,12 +89,17 @@ class FabricPack {
     }
   }
 
+  //! The excess of an edge takes long and moves nothing: it is computed while the hinge before is solved, which gives
+  //! the processor more to do at the same time.
   template <bool recording>
   void solve() {
     double* recorded = recorded_;
     const HingeConstraint* const hinges_end = in_.hinges + in_.hinge_count;
+    Pack ahead = {};
     for (const HingeConstraint* hinge = in_.hinges; hinge != hinges_end; ++hinge) {
-      solveHinge<recording>(*hinge, recorded);
+      const Pack excess = hinge->waits ? excessOf(*hinge) : ahead;
+      ahead = excessOf(hinge[hinge + 1 != hinges_end]);
+      solveHinge<recording>(*hinge, excess, recorded);
       recorded += recording ? kRecordedOfHinge : 0;
     }
     const BoundaryConstraint* const boundaries_end = in_.boundaries + in_.boundary_count;
@@ -107,19 +114,22 @@ class FabricPack {
     return 1.0 - constraint.rest_length * inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
   }
 
+  DM_INLINE Pack excessOf(const HingeConstraint& c) const {
+    Vec3 edge = load3(position_ + c.at[1], kLanes) - load3(position_ + c.at[0], kLanes);
+    return excess(c.stretch, edge);
+  }
+
   //! The edge first, then the fold with the edge as corrected.
   template <bool recording>
-  DM_INLINE void solveHinge(const HingeConstraint& c, double* recorded) {
+  DM_INLINE void solveHinge(const HingeConstraint& c, const Pack& excess, double* recorded) {
     double* const at[4] = {position_ + c.at[0], position_ + c.at[1], position_ + c.at[2], position_ + c.at[3]};
     Vec3 x[4];
     for (int i = 0; i < 4; ++i) {
       x[i] = load3(at[i], kLanes);
     }
     Vec3 edge = x[1] - x[0];
-    Vec3 fold = broadcast(c.weight[1]) * (x[2] - x[0]);
-    fold = scaleAdd(broadcast(c.weight[2]), x[3] - x[0], fold);
-    const Pack excess = this->excess(c.stretch, edge);
-    fold = scaleAdd(c.weight[0] + c.weight_of_stretch * excess, edge, fold);
+    Vec3 fold = scaleAdd(broadcast(c.weight_of_opposite), x[3] - x[0], x[2] - x[0]);
+    fold = scaleAdd(c.weight_of_end + c.weight_of_stretch * excess, edge, fold);
     if (recording) {
       store3(recorded, kLanes, excess * edge);
       store3(recorded + 3 * kLanes, kLanes, fold);
@@ -146,8 +156,8 @@ class FabricPack {
   }
 
   const FabricInput& in_;
-  double* const position_;
-  double* const previous_;
+  double* position_;  // predictions take the place of what is no longer needed: the arrays swap in each substep
+  double* previous_;
   double* const velocity_;
   double* const recorded_;
   const int first_lane_;
@@ -156,6 +166,9 @@ class FabricPack {
 void advance(const FabricInput& input, int copies, int substeps, FabricLanes& lanes) {
   for (int lane = 0; lane < copies; lane += kPackWidth) {
     FabricPack(input, lanes, lane).advance(substeps);
+  }
+  if (substeps % 2 != 0) {
+    std::swap(lanes.position, lanes.previous_position);
   }
 }
 
