@@ -1,5 +1,6 @@
 // The C++ core for Python: deformable_manipulation._pbd
 
+#include "../pbd/instruction_set.h"
 #include "bindings.h"
 
 PYBIND11_MODULE(_pbd, module) {
@@ -11,4 +12,8 @@ PYBIND11_MODULE(_pbd, module) {
   bindEquilibrium(module);
   bindFabric(module);
   bindSimulation(module);
+  module.def(
+      "instruction_set", [] { return name(selectedInstructionSet()); },
+      "What the kernels run on in this process: portable, avx2 or avx512. The environment variable\n"
+      "DEFORMABLE_MANIPULATION_INSTRUCTION_SET chooses it at the start.");
 }
