@@ -15,7 +15,7 @@ class FabricModel(Model):
 
     @abstractmethod
     def place_held(self, positions: np.ndarray, velocities: np.ndarray) -> None:
-        """Put held vertices at positions (h, 3) [m], for the next step, in which they move [m/s]."""
+        """Put held vertices at positions (h, 3) [m] where the next step ends; velocities [m/s]."""
 
 
 class UndampedFabricModel(UndampedModel, FabricModel):

@@ -78,7 +78,7 @@ class Case(ABC):
 
     @abstractmethod
     def draw_in(self, model: Model, progress: float, rate: float) -> None:
-        """Put held points at a part of their way, 0 to 1, where the next step ends; rate [1/s]."""
+        """Put held points where the next step ends: at progress 0 to 1 of their way; rate [1/s]."""
 
 
 @dataclass(frozen=True)
