@@ -21,6 +21,9 @@ namespace {
 // Substeps that the threads do before they wait for each other.
 constexpr int kSubstepsAtOnce = 16;
 
+//! 1/s. Rest lengths adapt slowly, for they must not feed energy into vibrations faster than damping takes it away.
+double adaptationRate(double damping) { return std::min(1.0, 0.1 * damping); }
+
 FabricParameters checked(const FabricParameters& parameters) {
   ParameterCheck check;
   parameters.check(check);
@@ -49,10 +52,10 @@ struct Fabric::State {
         constraints(p.vertices, edges),
         decay(p.vertices.size()),
         carried(3 * p.vertices.size()),
-        recorded(constraints.recordedSize()),
         pool(std::make_shared<ThreadPool>(p.threads)),
         motions(p.vertices.size()) {
-    groups.emplace_back(static_cast<int>(p.vertices.size()));
+    recorded.emplace_back(constraints.recordedSize());
+    groups.emplace_back(static_cast<int>(p.vertices.size()), static_cast<int>(edges.size()));
   }
 
   std::vector<MeshEdge> edges;
@@ -64,9 +67,9 @@ struct Fabric::State {
   Eigen::MatrixXd weights;                              // [N x holds] how each vertex goes with the holds
   std::vector<std::vector<double>> distances_of_holds;  // [holds x N] m, unless straight
   std::vector<double> decay, carried;
-  std::vector<HeldVertex> held;  // [kSubstepsAtOnce x groups x holds]
-  int pending = 0;               // substeps that are noted in it and still to be done
-  AlignedArray recorded;         // of the last substep
+  std::vector<HeldVertex> held;        // [kSubstepsAtOnce x groups x holds]
+  int pending = 0;                     // substeps that are noted in it and still to be done
+  std::vector<AlignedArray> recorded;  // [groups] of the last substep
   FabricInput input{};
   std::shared_ptr<ThreadPool> pool;  // shared with clones
   std::vector<PointMotion> motions;  // [N] scratch
@@ -168,6 +171,7 @@ void Fabric::resizeCopies() {
   while (state_->groups.size() < groups) {
     state_->groups.push_back(state_->groups.front());
   }
+  state_->recorded.resize(groups, state_->recorded.front());
   resizeHeld();
 }
 
@@ -177,7 +181,7 @@ void Fabric::assignCopy(int to, int from) {
   FabricLanes& target = state_->groups[to / kLanes];
   const FabricLanes& source = state_->groups[from / kLanes];
   for (AlignedArray FabricLanes::*array :
-       {&FabricLanes::position, &FabricLanes::previous_position, &FabricLanes::velocity}) {
+       {&FabricLanes::position, &FabricLanes::previous_position, &FabricLanes::velocity, &FabricLanes::rest_length}) {
     copyLane(target.*array, to % kLanes, source.*array, from % kLanes);
   }
 }
@@ -192,8 +196,11 @@ void Fabric::layOut() {
       }
     }
     lanes.previous_position = lanes.position;
+    s.constraints.restLengths(lanes.rest_length);
   }
-  std::fill(s.recorded.begin(), s.recorded.end(), 0.0);
+  for (AlignedArray& recorded : s.recorded) {
+    std::fill(recorded.begin(), recorded.end(), 0.0);
+  }
   stop();
 }
 
@@ -282,7 +289,8 @@ void Fabric::endStep() {
   s.pool->run(static_cast<int>(s.groups.size()), [&](int, int group) {
     FabricInput input = s.input;
     input.held = s.heldIn(0, group, holds().size());
-    input.recorded = group == 0 ? s.recorded.data() : nullptr;
+    input.recorded = s.recorded[group].data();
+    input.adaptation = 1.0 - std::exp(-s.pending * s.input.h * adaptationRate(parameters_.damping));
     const int copies = std::min(copyCount() - group * kLanes, kLanes);
     selectedFabricKernel().advance(input, copies, s.pending, s.groups[group]);
   });
@@ -295,8 +303,8 @@ void Fabric::endStep() {
 Wrench Fabric::wrench(int particle) const {
   held(particle);
   Wrench wrench;
-  wrench.force =
-      state_->masses[particle] * parameters_.gravity + state_->constraints.force(particle, state_->recorded.data());
+  wrench.force = state_->masses[particle] * parameters_.gravity +
+                 state_->constraints.force(particle, state_->recorded.front().data());
   return wrench;
 }
 

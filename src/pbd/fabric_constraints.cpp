@@ -8,6 +8,10 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
+// Compliance of an edge in equilibrium, at least, as a part of its response: below, the folds of a cloth between its
+// holds do not always come to rest.
+constexpr double kLeastCompliance = 0.4;
+
 // Places between two constraints that touch a common vertex, and how far ahead such are searched for.
 constexpr int kApart = 3;
 constexpr int kLookAhead = 96;
@@ -119,7 +123,9 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
   const auto updateStretch = [&](StretchConstraint& stretch, const int* at, std::size_t i) {
     const double w0 = mobility(at[0]);
     const double w1 = mobility(at[1]);
-    const double s = stiffnessInNet(w0 + w1, stretching_compliance * rest_[i].length_share * per_h2);
+    const double compliance = stretching_compliance * rest_[i].length_share * per_h2;
+    const double s = stiffnessInNet(w0 + w1, compliance);
+    stretch.yield = s > 0.0 ? s * std::max(compliance, kLeastCompliance * (w0 + w1)) : 1.0;
     stretch.gain[0] = s * w0;
     stretch.gain[1] = -s * w1;
     spring_[i] = s * per_h2;
@@ -141,6 +147,16 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
   }
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     updateStretch(boundaries_[i].stretch, boundaries_[i].at, hinges_.size() + i);
+  }
+}
+
+void FabricConstraints::restLengths(AlignedArray& to) const {
+  auto at = to.begin();
+  for (const HingeConstraint& hinge : hinges_) {
+    at = std::fill_n(at, kLanes, hinge.stretch.rest_length);
+  }
+  for (const BoundaryConstraint& boundary : boundaries_) {
+    at = std::fill_n(at, kLanes, boundary.stretch.rest_length);
   }
 }
 

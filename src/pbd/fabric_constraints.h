@@ -22,6 +22,9 @@ class FabricConstraints {
   const std::vector<HingeConstraint>& hinges() const { return hinges_; }
   const std::vector<BoundaryConstraint>& boundaries() const { return boundaries_; }
 
+  //! Fills in the unstretched lengths of the edges, [edges x lane].
+  void restLengths(AlignedArray& to) const;
+
   //! Numbers that the kernel records.
   std::size_t recordedSize() const {
     return kRecordedOfHinge * hinges_.size() + kRecordedOfBoundary * boundaries_.size();

@@ -14,6 +14,9 @@ namespace {
 // m^2, added to squared lengths: below rounding, and an edge without length has no direction but is finite.
 constexpr double kTiny = 1e-30;
 
+// Adapted rest lengths stay within this part of the true ones.
+constexpr double kMostAdapted = 0.1;
+
 //! One pack of copies of a fabric.
 class FabricPack {
  public:
@@ -22,7 +25,8 @@ class FabricPack {
         position_(lanes.position.data() + first_lane),
         previous_(lanes.previous_position.data() + first_lane),
         velocity_(lanes.velocity.data() + first_lane),
-        recorded_(input.recorded == nullptr ? nullptr : input.recorded + first_lane),
+        rest_length_(lanes.rest_length.data() + first_lane),
+        recorded_(input.recorded + first_lane),
         first_lane_(first_lane) {}
 
   void advance(int substeps) {
@@ -30,14 +34,12 @@ class FabricPack {
     for (int i = 0; i < substeps; ++i) {
       place(in_.held + static_cast<std::ptrdiff_t>(i) * in_.held_stride);
       const bool last = i + 1 == substeps;
-      if (last && recorded_ != nullptr) {
-        solve<true>();
-      } else {
-        solve<false>();
-      }
       if (last) {
+        solve<true>();
+        adapt();
         finish(i);
       } else {
+        solve<false>();
         predictNext(i);
       }
     }
@@ -94,29 +96,61 @@ class FabricPack {
   template <bool recording>
   void solve() {
     double* recorded = recorded_;
+    const double* rest_length = rest_length_;
     const HingeConstraint* const hinges_end = in_.hinges + in_.hinge_count;
     Pack ahead = {};
     for (const HingeConstraint* hinge = in_.hinges; hinge != hinges_end; ++hinge) {
-      const Pack excess = hinge->waits ? excessOf(*hinge) : ahead;
-      ahead = excessOf(hinge[hinge + 1 != hinges_end]);
+      const std::ptrdiff_t step = hinge + 1 != hinges_end ? 1 : 0;
+      const Pack excess = hinge->waits ? excessOf(*hinge, rest_length) : ahead;
+      ahead = excessOf(hinge[step], rest_length + step * kLanes);
       solveHinge<recording>(*hinge, excess, recorded);
+      rest_length += kLanes;
       recorded += recording ? kRecordedOfHinge : 0;
     }
     const BoundaryConstraint* const boundaries_end = in_.boundaries + in_.boundary_count;
     for (const BoundaryConstraint* boundary = in_.boundaries; boundary != boundaries_end; ++boundary) {
-      solveBoundary<recording>(*boundary, recorded);
+      solveBoundary<recording>(*boundary, rest_length, recorded);
+      rest_length += kLanes;
       recorded += recording ? kRecordedOfBoundary : 0;
     }
   }
 
-  //! By how much an edge is too long, as a part of its length.
-  DM_INLINE static Pack excess(const StretchConstraint& constraint, Vec3& edge) {
-    return 1.0 - constraint.rest_length * inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
+  //! Moves the rest lengths towards those at which all edges have the lengths of the elastic equilibrium.
+  void adapt() {
+    double* rest_length = rest_length_;
+    const double* recorded = recorded_;
+    for (int i = 0; i < in_.hinge_count; ++i) {
+      adapt(in_.hinges[i].stretch, in_.hinges[i].at, recorded, rest_length);
+      rest_length += kLanes;
+      recorded += kRecordedOfHinge;
+    }
+    for (int i = 0; i < in_.boundary_count; ++i) {
+      adapt(in_.boundaries[i].stretch, in_.boundaries[i].at, recorded, rest_length);
+      rest_length += kLanes;
+      recorded += kRecordedOfBoundary;
+    }
   }
 
-  DM_INLINE Pack excessOf(const HingeConstraint& c) const {
+  DM_INLINE void adapt(const StretchConstraint& c, const int* at, const double* recorded, double* rest_length) {
+    Vec3 edge = load3(position_ + at[1], kLanes) - load3(position_ + at[0], kLanes);
+    const Pack square = dotAdd(edge, edge, broadcast(kTiny));
+    const Pack inverse_length = inverseSquareRoot(square);
+    const Pack corrected = inverse_length * dot(load3(recorded, kLanes), edge);
+    const Pack error = square * inverse_length - c.rest_length - c.yield * corrected;
+    const Pack adapted = load(rest_length) - in_.adaptation * error;
+    const Pack least = broadcast((1.0 - kMostAdapted) * c.rest_length);
+    const Pack most = broadcast((1.0 + kMostAdapted) * c.rest_length);
+    store(rest_length, adapted < least ? least : (adapted > most ? most : adapted));
+  }
+
+  //! By how much an edge is too long, as a part of its length.
+  DM_INLINE static Pack excess(const Pack& rest_length, Vec3& edge) {
+    return 1.0 - rest_length * inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
+  }
+
+  DM_INLINE Pack excessOf(const HingeConstraint& c, const double* rest_length) const {
     Vec3 edge = load3(position_ + c.at[1], kLanes) - load3(position_ + c.at[0], kLanes);
-    return excess(c.stretch, edge);
+    return excess(load(rest_length), edge);
   }
 
   //! The edge first, then the fold with the edge as corrected.
@@ -142,12 +176,12 @@ class FabricPack {
   }
 
   template <bool recording>
-  DM_INLINE void solveBoundary(const BoundaryConstraint& c, double* recorded) {
+  DM_INLINE void solveBoundary(const BoundaryConstraint& c, const double* rest_length, double* recorded) {
     double* const at[2] = {position_ + c.at[0], position_ + c.at[1]};
     Vec3 start = load3(at[0], kLanes);
     Vec3 end = load3(at[1], kLanes);
     Vec3 edge = end - start;
-    const Pack excess = this->excess(c.stretch, edge);
+    const Pack excess = this->excess(load(rest_length), edge);
     if (recording) {
       store3(recorded, kLanes, excess * edge);
     }
@@ -159,6 +193,7 @@ class FabricPack {
   double* position_;  // predictions take the place of what is no longer needed: the arrays swap in each substep
   double* previous_;
   double* const velocity_;
+  double* const rest_length_;
   double* const recorded_;
   const int first_lane_;
 };

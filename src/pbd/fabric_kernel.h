@@ -9,18 +9,23 @@ namespace pbd {
 
 //! State of eight copies of a fabric. Layout: [vertex][axis][lane]. Lanes without a copy hold anything.
 struct FabricLanes {
-  explicit FabricLanes(int vertices)
-      : position(3 * kLanes * vertices), previous_position(position.size()), velocity(position.size()) {}
+  FabricLanes(int vertices, int edges)
+      : position(3 * kLanes * vertices),
+        previous_position(position.size()),
+        velocity(position.size()),
+        rest_length(kLanes * edges) {}
 
   AlignedArray position;           // m
   AlignedArray previous_position;  // m
   AlignedArray velocity;           // m/s
+  AlignedArray rest_length;        // [edges x lane] m, of the hinges and then the boundary edges, as adapted
 };
 
 //! An edge as a spring. An end moves by its gain times the edge's excess of length.
 struct StretchConstraint {
   double rest_length;  // m
   double gain[2];
+  double yield;  // elongation in equilibrium as a part of the excess that is corrected
 };
 
 //! An edge between two triangles: a spring that also resists folding. A vertex moves by its gain times the fold, the
@@ -67,7 +72,8 @@ struct FabricInput {
   const HeldVertex* held;  // [substeps x held_stride]
   int held_count;
   int held_stride;
-  double* recorded;  // excess of length [m] along each edge, then fold [m], of the last substep; or null
+  double adaptation;  // part of the error of the lengths that a call takes off the rest lengths
+  double* recorded;   // excess of length [m] along each edge, then fold [m], of the last substep
 };
 
 //! Substeps of the first copies of eight: predict, solve the constraints, update velocities.

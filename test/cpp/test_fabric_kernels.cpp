@@ -29,7 +29,8 @@ class FabricRun {
   }
 
   FabricLanes run(const FabricKernel& kernel, int copies) {
-    FabricLanes lanes(35);
+    FabricLanes lanes(35, static_cast<int>(constraints_.hinges().size() + constraints_.boundaries().size()));
+    constraints_.restLengths(lanes.rest_length);
     for (int i = 0; i < 35; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) {
         const Vector3 bump(0.0, 0.0, 0.003 * lane * std::sin(i));
@@ -78,6 +79,7 @@ class FabricRun {
     in.held = held_.data();
     in.held_count = 2;
     in.held_stride = 2;
+    in.adaptation = 0.05;
     in.recorded = recorded_.data();
     return in;
   }

@@ -162,6 +162,22 @@ TEST(Fabric, holdsAreTakenAndReleasedWhileRunning) {
   EXPECT_NEAR((positions(*fabric, 1)[0] - positions(*fabric)[0] - Vector3(0.0, 0.0, 0.05)).norm(), 0.0, 1e-12);
 }
 
+TEST(Fabric, forgetsHowItWasSqueezed) {
+  FabricParameters p = sheet(4, 3, 0.1);
+  p.stretching_compliance = 0.0;
+  Fabric fabric(p);
+  fabric.hold(5, Hold::PINNED);
+  fabric.hold(6, Hold::PINNED, {p.vertices[6] - Vector3(0.02, 0.0, 0.0), Quaternion::Identity()});
+  for (int step = 0; step < 200; ++step) {
+    fabric.step(0.01, 10);
+  }
+  fabric.release(6);
+  for (int step = 0; step < 20; ++step) {
+    fabric.step(0.01, 10);
+  }
+  EXPECT_NEAR((positions(fabric)[6] - positions(fabric)[5]).norm(), 0.1, 1e-3);
+}
+
 TEST(Fabric, measuresFreeLengthsAlongItsSurface) {
   const Fabric flat(cloth());
   EXPECT_NEAR(flat.freeLength(0, 224), 2.0 * std::sqrt(2.0), 1e-12);
