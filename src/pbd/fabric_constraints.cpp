@@ -109,7 +109,7 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
   }
   for (int i : independentOrder(boundary_vertices, count)) {
     boundaries_.push_back(
-        {{boundary[i]->length, {}}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
+        {{boundary[i]->length, {}, 1.0}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
     note(*boundary[i], 0.0);
   }
   spring_.resize(rest_.size());
