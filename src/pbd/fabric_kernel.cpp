@@ -26,6 +26,7 @@ class FabricPack {
         previous_(lanes.previous_position.data() + first_lane),
         velocity_(lanes.velocity.data() + first_lane),
         rest_length_(lanes.rest_length.data() + first_lane),
+        finite_(lanes.finite.data() + first_lane),
         recorded_(input.recorded + first_lane),
         first_lane_(first_lane) {}
 
@@ -78,11 +79,17 @@ class FabricPack {
   void finish(int substep) {
     Vec3 change = carriedChange(substep);
     const double rate = 1.0 / in_.h;
+    Pack finite = {};
     for (std::ptrdiff_t i = 0; i < in_.vertices; ++i) {
       const std::ptrdiff_t at = 3 * kLanes * i;
-      Vec3 moved = load3(position_ + at, kLanes) - load3(previous_ + at, kLanes);
-      store3(velocity_ + at, kLanes, scaleAdd(broadcast(rate * in_.decay[i]), moved, carried(i, change)));
+      Vec3 x = load3(position_ + at, kLanes);
+      Vec3 moved = x - load3(previous_ + at, kLanes);
+      Vec3 velocity = scaleAdd(broadcast(rate * in_.decay[i]), moved, carried(i, change));
+      store3(velocity_ + at, kLanes, velocity);
+      const Pack sum = velocity.x + velocity.y + velocity.z + x.x + x.y + x.z;
+      finite += sum - sum;  // not a number, unless all of the sum is finite
     }
+    store(finite_, finite);
   }
 
   void place(const HeldVertex* held) {
@@ -194,6 +201,7 @@ class FabricPack {
   double* previous_;
   double* const velocity_;
   double* const rest_length_;
+  double* const finite_;
   double* const recorded_;
   const int first_lane_;
 };

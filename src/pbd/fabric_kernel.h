@@ -13,12 +13,14 @@ struct FabricLanes {
       : position(3 * kLanes * vertices),
         previous_position(position.size()),
         velocity(position.size()),
-        rest_length(kLanes * edges) {}
+        rest_length(kLanes * edges),
+        finite(kLanes) {}
 
   AlignedArray position;           // m
   AlignedArray previous_position;  // m
   AlignedArray velocity;           // m/s
   AlignedArray rest_length;        // [edges x lane] m, of the hinges and then the boundary edges, as adapted
+  AlignedArray finite;             // [lane] 0 where the copy's state was finite after the last call, else not a number
 };
 
 //! An edge as a spring. An end moves by its gain times the edge's excess of length.
