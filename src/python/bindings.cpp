@@ -1,7 +1,8 @@
 // The C++ core for Python: deformable_manipulation._pbd
 
-#include "../pbd/instruction_set.h"
 #include "bindings.h"
+
+#include "../pbd/instruction_set.h"
 
 PYBIND11_MODULE(_pbd, module) {
   using namespace deformable_manipulation::pbd;
