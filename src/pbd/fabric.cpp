@@ -326,6 +326,9 @@ bool Fabric::orientations(int, double*) const { return false; }
 
 int Fabric::firstNonFinite(int copy) const {
   const FabricLanes& lanes = state_->groups[copy / kLanes];
+  if (lanes.finite[copy % kLanes] == 0.0) {
+    return -1;
+  }
   for (int i = 0; i < particleCount(); ++i) {
     if (!std::isfinite(read3(lanes.position, i, copy % kLanes).sum() + read3(lanes.velocity, i, copy % kLanes).sum())) {
       return i;

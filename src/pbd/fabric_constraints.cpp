@@ -19,8 +19,14 @@ constexpr int kLookAhead = 96;
 int place(int vertex) { return 3 * kLanes * vertex; }
 
 std::array<double, 4> weightsOf(const HingeConstraint& hinge) {
-  const double* w = hinge.weight;
-  return {-(w[0] + w[1] + w[2]), w[0], w[1], w[2]};
+  const double end = hinge.weight_of_end;
+  const double opposite = hinge.weight_of_opposite;
+  return {-(end + 1.0 + opposite), end, 1.0, opposite};
+}
+
+//! Whether a hinge moves an end of another one's edge.
+bool touches(const HingeConstraint& hinge, const HingeConstraint& other) {
+  return std::find_first_of(hinge.at, hinge.at + 4, other.at, other.at + 2) != hinge.at + 4;
 }
 
 //! Multiplier per violation, 1 / (response + compliance); 0 where nothing can move and nothing yields.
@@ -84,29 +90,27 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
       boundary_vertices.push_back({a, b});
     }
   }
-  const auto note = [this](const MeshEdge& edge) {
-    rest_.push_back({edge.length * edge.length / edge.area, edge.area});
+  const auto note = [this](const MeshEdge& edge, double fold_area) {
+    rest_.push_back({edge.length * edge.length / edge.area, fold_area});
   };
   const int count = static_cast<int>(vertices.size());
   for (int i : independentOrder(interior_vertices, count)) {
     HingeConstraint hinge{};
     const std::array<double, 4> weights = foldWeights(vertices, *interior[i]);
-    std::copy(weights.begin() + 1, weights.end(), hinge.weight);
+    hinge.weight_of_end = weights[1] / weights[2];
+    hinge.weight_of_opposite = weights[3] / weights[2];
     for (int k = 0; k < 4; ++k) {
       hinge.at[k] = place(interior_vertices[i][k]);
     }
     hinge.stretch.rest_length = interior[i]->length;
+    hinge.waits = hinges_.empty() || touches(hinges_.back(), hinge);
     hinges_.push_back(hinge);
-    note(*interior[i]);
+    note(*interior[i], interior[i]->area / (weights[2] * weights[2]));
   }
   for (int i : independentOrder(boundary_vertices, count)) {
-    BoundaryConstraint constraint{};
-    constraint.stretch.rest_length = boundary[i]->length;
-    for (int k = 0; k < 2; ++k) {
-      constraint.at[k] = place(boundary_vertices[i][k]);
-    }
-    boundaries_.push_back(constraint);
-    note(*boundary[i]);
+    boundaries_.push_back(
+        {{boundary[i]->length, {}, 1.0}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
+    note(*boundary[i], 0.0);
   }
   spring_.resize(rest_.size());
   fold_spring_.resize(hinges_.size());

@@ -37,7 +37,7 @@ class FabricConstraints {
   //! What does not change with material, holds and time step.
   struct Rest {
     double length_share;  // compliance of the edge as a part of the fabric's stretching compliance
-    double fold_area;     // m^2, compliance of the fold as a part of the fabric's bending compliance
+    double fold_area;     // m^2, compliance of the fold as a part of the fabric's bending compliance; 0 on the boundary
   };
 
   std::vector<HingeConstraint> hinges_;

@@ -2,6 +2,8 @@
 
 #include "fabric_kernel.h"
 
+#include <utility>
+
 #include "lane_math.h"
 
 namespace deformable_manipulation {
@@ -24,6 +26,7 @@ class FabricPack {
         previous_(lanes.previous_position.data() + first_lane),
         velocity_(lanes.velocity.data() + first_lane),
         rest_length_(lanes.rest_length.data() + first_lane),
+        finite_(lanes.finite.data() + first_lane),
         recorded_(input.recorded + first_lane),
         first_lane_(first_lane) {}
 
@@ -55,9 +58,9 @@ class FabricPack {
     for (std::ptrdiff_t i = 0; i < in_.vertices; ++i) {
       const std::ptrdiff_t at = 3 * kLanes * i;
       Vec3 x = load3(position_ + at, kLanes);
-      store3(previous_ + at, kLanes, x);
-      store3(position_ + at, kLanes, scaleAdd(h, fall + load3(velocity_ + at, kLanes), x));
+      store3(previous_ + at, kLanes, scaleAdd(h, fall + load3(velocity_ + at, kLanes), x));
     }
+    std::swap(position_, previous_);
   }
 
   //! The end of a substep and the prediction of the next one.
@@ -68,19 +71,25 @@ class FabricPack {
       const std::ptrdiff_t at = 3 * kLanes * i;
       Vec3 x = load3(position_ + at, kLanes);
       Vec3 moved = x - load3(previous_ + at, kLanes);
-      store3(previous_ + at, kLanes, x);
-      store3(position_ + at, kLanes, scaleAdd(broadcast(in_.decay[i]), moved, scaleAdd(h, carried(i, change), x)));
+      store3(previous_ + at, kLanes, scaleAdd(broadcast(in_.decay[i]), moved, scaleAdd(h, carried(i, change), x)));
     }
+    std::swap(position_, previous_);
   }
 
   void finish(int substep) {
     Vec3 change = carriedChange(substep);
     const double rate = 1.0 / in_.h;
+    Pack finite = {};
     for (std::ptrdiff_t i = 0; i < in_.vertices; ++i) {
       const std::ptrdiff_t at = 3 * kLanes * i;
-      Vec3 moved = load3(position_ + at, kLanes) - load3(previous_ + at, kLanes);
-      store3(velocity_ + at, kLanes, scaleAdd(broadcast(rate * in_.decay[i]), moved, carried(i, change)));
+      Vec3 x = load3(position_ + at, kLanes);
+      Vec3 moved = x - load3(previous_ + at, kLanes);
+      Vec3 velocity = scaleAdd(broadcast(rate * in_.decay[i]), moved, carried(i, change));
+      store3(velocity_ + at, kLanes, velocity);
+      const Pack sum = velocity.x + velocity.y + velocity.z + x.x + x.y + x.z;
+      finite += sum - sum;  // not a number, unless all of the sum is finite
     }
+    store(finite_, finite);
   }
 
   void place(const HeldVertex* held) {
@@ -89,13 +98,19 @@ class FabricPack {
     }
   }
 
+  //! The excess of an edge takes long and moves nothing: it is computed while the hinge before is solved, which gives
+  //! the processor more to do at the same time.
   template <bool recording>
   void solve() {
     double* recorded = recorded_;
     const double* rest_length = rest_length_;
     const HingeConstraint* const hinges_end = in_.hinges + in_.hinge_count;
+    Pack ahead = {};
     for (const HingeConstraint* hinge = in_.hinges; hinge != hinges_end; ++hinge) {
-      solveHinge<recording>(*hinge, rest_length, recorded);
+      const std::ptrdiff_t step = hinge + 1 != hinges_end ? 1 : 0;
+      const Pack excess = hinge->waits ? excessOf(*hinge, rest_length) : ahead;
+      ahead = excessOf(hinge[step], rest_length + step * kLanes);
+      solveHinge<recording>(*hinge, excess, recorded);
       rest_length += kLanes;
       recorded += recording ? kRecordedOfHinge : 0;
     }
@@ -140,19 +155,22 @@ class FabricPack {
     return 1.0 - rest_length * inverseSquareRoot(dotAdd(edge, edge, broadcast(kTiny)));
   }
 
+  DM_INLINE Pack excessOf(const HingeConstraint& c, const double* rest_length) const {
+    Vec3 edge = load3(position_ + c.at[1], kLanes) - load3(position_ + c.at[0], kLanes);
+    return excess(load(rest_length), edge);
+  }
+
   //! The edge first, then the fold with the edge as corrected.
   template <bool recording>
-  DM_INLINE void solveHinge(const HingeConstraint& c, const double* rest_length, double* recorded) {
+  DM_INLINE void solveHinge(const HingeConstraint& c, const Pack& excess, double* recorded) {
     double* const at[4] = {position_ + c.at[0], position_ + c.at[1], position_ + c.at[2], position_ + c.at[3]};
     Vec3 x[4];
     for (int i = 0; i < 4; ++i) {
       x[i] = load3(at[i], kLanes);
     }
     Vec3 edge = x[1] - x[0];
-    Vec3 fold = broadcast(c.weight[1]) * (x[2] - x[0]);
-    fold = scaleAdd(broadcast(c.weight[2]), x[3] - x[0], fold);
-    const Pack excess = this->excess(load(rest_length), edge);
-    fold = scaleAdd(c.weight[0] + c.weight_of_stretch * excess, edge, fold);
+    Vec3 fold = scaleAdd(broadcast(c.weight_of_opposite), x[3] - x[0], x[2] - x[0]);
+    fold = scaleAdd(c.weight_of_end + c.weight_of_stretch * excess, edge, fold);
     if (recording) {
       store3(recorded, kLanes, excess * edge);
       store3(recorded + 3 * kLanes, kLanes, fold);
@@ -179,10 +197,11 @@ class FabricPack {
   }
 
   const FabricInput& in_;
-  double* const position_;
-  double* const previous_;
+  double* position_;  // predictions take the place of what is no longer needed: the arrays swap in each substep
+  double* previous_;
   double* const velocity_;
   double* const rest_length_;
+  double* const finite_;
   double* const recorded_;
   const int first_lane_;
 };
@@ -190,6 +209,9 @@ class FabricPack {
 void advance(const FabricInput& input, int copies, int substeps, FabricLanes& lanes) {
   for (int lane = 0; lane < copies; lane += kPackWidth) {
     FabricPack(input, lanes, lane).advance(substeps);
+  }
+  if (substeps % 2 != 0) {
+    std::swap(lanes.position, lanes.previous_position);
   }
 }
 

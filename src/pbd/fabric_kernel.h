@@ -7,18 +7,20 @@
 namespace deformable_manipulation {
 namespace pbd {
 
-//! State of eight copies of a fabric. Layout: [vertex][axis][lane].
+//! State of eight copies of a fabric. Layout: [vertex][axis][lane]. Lanes without a copy hold anything.
 struct FabricLanes {
   FabricLanes(int vertices, int edges)
       : position(3 * kLanes * vertices),
         previous_position(position.size()),
         velocity(position.size()),
-        rest_length(kLanes * edges) {}
+        rest_length(kLanes * edges),
+        finite(kLanes) {}
 
   AlignedArray position;           // m
   AlignedArray previous_position;  // m
   AlignedArray velocity;           // m/s
   AlignedArray rest_length;        // [edges x lane] m, of the hinges and then the boundary edges, as adapted
+  AlignedArray finite;             // [lane] 0 where the copy's state was finite after the last call, else not a number
 };
 
 //! An edge as a spring. An end moves by its gain times the edge's excess of length.
@@ -30,13 +32,15 @@ struct StretchConstraint {
 
 //! An edge between two triangles: a spring that also resists folding. A vertex moves by its gain times the fold, the
 //! sum of the vertices by their weights; as these sum to zero, positions count from the first vertex, and its weight is
-//! not needed.
+//! not needed. That of the third vertex is 1.
 struct HingeConstraint {
   StretchConstraint stretch;
-  double weight[3];          // of the vertices but the first
-  double weight_of_stretch;  // change of the fold by the correction of the stretch
+  double weight_of_end;       // the second vertex
+  double weight_of_opposite;  // the fourth vertex
+  double weight_of_stretch;   // change of the fold by the correction of the stretch
   double gain[4];
-  int at[4];  // vertices' places in the arrays: both ends of the edge, then those opposite
+  int at[4];   // vertices' places in the arrays: both ends of the edge, then those opposite
+  bool waits;  // the hinge before moves an end of the edge
 };
 
 //! An edge on the boundary.

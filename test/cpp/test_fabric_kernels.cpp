@@ -97,6 +97,23 @@ void expectNear(const AlignedArray& a, const AlignedArray& b, double tolerance, 
   }
 }
 
+TEST(FabricConstraints, aHingeWaitsForTheOneBeforeIfThatMovesItsEdge) {
+  const FabricParameters p = cloth();
+  const FabricConstraints constraints(p.vertices, meshEdges(p.vertices, p.triangles));
+  const std::vector<HingeConstraint>& hinges = constraints.hinges();
+  int waiting = 0;
+  for (std::size_t i = 1; i < hinges.size(); ++i) {
+    bool moved = false;
+    for (int at : hinges[i - 1].at) {
+      moved = moved || at == hinges[i].at[0] || at == hinges[i].at[1];
+    }
+    EXPECT_EQ(hinges[i].waits, moved) << i;
+    waiting += moved ? 1 : 0;
+  }
+  EXPECT_TRUE(hinges.front().waits);
+  EXPECT_LT(waiting, 10);
+}
+
 TEST(FabricKernels, agreeForEveryInstructionSet) {
   const std::vector<FabricKernel> kernels = availableFabricKernels();
   FabricRun reference;

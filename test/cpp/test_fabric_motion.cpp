@@ -271,6 +271,20 @@ TEST(Fabric, threadsDoNotChangeTheResult) {
   }
 }
 
+TEST(Fabric, movesAlikeInOneCallAndInSeveral) {
+  FabricParameters p = cloth();
+  p.damping = 0.0;  // rest lengths, which adapt once per call, stay
+  for (int substeps : {3, 4, 20}) {
+    const auto at_once = hangingCloth(p);
+    const auto one_by_one = at_once->clone();
+    at_once->step(0.001 * substeps, substeps);
+    for (int i = 0; i < substeps; ++i) {
+      one_by_one->step(0.001, 1);
+    }
+    EXPECT_LT(difference(*at_once, 0, *one_by_one, 0), 1e-9) << substeps << " substeps";
+  }
+}
+
 TEST(Fabric, clonesAreIndependentAndEqual) {
   const auto fabric = hangingCloth(cloth());
   fabric->step(0.01, 5);

@@ -1,5 +1,7 @@
 """What a measurement was made on."""
 
+import ctypes
+import math
 import os
 import platform
 import re
@@ -7,11 +9,11 @@ from importlib import metadata
 from pathlib import Path
 from typing import Dict, List, Sequence
 
+from deformable_manipulation import _pbd
 from deformable_manipulation.recording.provenance import machine, package_version
 
 # Those that the simulation is compiled for, by the name that the kernel gives the flag.
 INSTRUCTION_SETS = ("avx2", "fma", "avx512f", "avx512dq", "asimd")
-INSTRUCTION_SET_VARIABLE = "DEFORMABLE_MANIPULATION_INSTRUCTION_SET"
 BUSY = 0.5  # processes that want to run beside the measurement, from which on it is disturbed
 
 
@@ -25,7 +27,7 @@ def describe_machine(libraries: Sequence[str] = ()) -> Dict[str, str]:
         "processor": here["processor"],
         "cores": str(here["cores"]),
         "instruction sets": " ".join(_instruction_sets(Path("/proc/cpuinfo"))) or "unknown",
-        "chosen instruction set": os.environ.get(INSTRUCTION_SET_VARIABLE, "the widest there is"),
+        "chosen instruction set": _pbd.instruction_set(),
         "load before": "{:.2f}".format(load()),
         "system": "{}, {} {}".format(_distribution(), platform.system(), platform.release()),
         "compiler": _compiler(),
@@ -49,6 +51,27 @@ def load_warning(value: float) -> str:
         f"the load of this machine is {value:.2f}: something else is running, and the times are "
         "longer than they would be; compare minima, or measure again"
     )
+
+
+class _Allocations(ctypes.Structure):
+    """mallinfo2 of the GNU C library, 2.33 or later: what malloc has handed out, and much else."""
+
+    _fields_ = [
+        (name, ctypes.c_size_t)
+        for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd")
+        + ("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")
+    ]
+
+
+def allocated() -> float:
+    """Bytes that C and C++ have allocated and not freed; NaN where the system cannot tell."""
+    try:
+        query = ctypes.CDLL(None).mallinfo2
+    except AttributeError:
+        return math.nan
+    query.restype = _Allocations
+    allocations = query()
+    return float(allocations.uordblks + allocations.hblkhd)
 
 
 def _instruction_sets(cpuinfo: Path) -> List[str]:
@@ -75,8 +98,6 @@ def _distribution() -> str:
 
 def _compiler() -> str:
     """The compiler of the simulation, as it signed what it compiled."""
-    from deformable_manipulation import _pbd
-
     signature = re.search(
         rb"GCC: \([^)]*\) [\d.]+|clang version [\d.]+", Path(_pbd.__file__).read_bytes()
     )

@@ -3,12 +3,12 @@
 import numpy as np
 
 from deformable_manipulation import _pbd
+from deformable_manipulation.benchmarks.copies import add_copies
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel
+from deformable_manipulation.benchmarks.rod_model import RodModel
 from deformable_manipulation.validation import rod as validation_rod
 
 SUBSTEP = {"direct": 0.005, "gauss_seidel": 0.0005}  # s; the paper takes 20 or more per 10 ms
-DISPLACEMENT = 0.1  # m, of the held end in the copies
 
 
 def make_rod(case: RodCase, solver: str, stretch: str = "zero") -> _pbd.Rod:
@@ -23,16 +23,8 @@ def make_rod(case: RodCase, solver: str, stretch: str = "zero") -> _pbd.Rod:
     )
 
 
-def add_copies(rod: _pbd.Rod, particle: int, copies: int) -> None:
-    """Add copies with a held particle displaced, until the rod and they are ``copies``."""
-    for index in range(copies - 1):
-        angle = 2.0 * np.pi * index / max(1, copies - 1)
-        rod.add_copy(particle, (0.0, DISPLACEMENT * np.cos(angle), DISPLACEMENT * np.sin(angle)))
-
-
 class PackageRod(RodModel):
     """The rod itself is what is looked at; its copies are carried along."""
-
 
     def __init__(self, case: RodCase, solver: str, stretch: str = "zero", copies: int = 1):
         self.time_step = SUBSTEP[solver]

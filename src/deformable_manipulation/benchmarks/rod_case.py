@@ -3,12 +3,15 @@
 import math
 from dataclasses import dataclass
 
+from deformable_manipulation.benchmarks.rod_model import RodModel
+from deformable_manipulation.benchmarks.trial import Case
+
 ROPE = "rope"
 CANTILEVER = "cantilever"
 
 
 @dataclass(frozen=True)
-class RodCase:
+class RodCase(Case):
     """A straight rod along x, at rest, whose first end is held; gravity is against z.
 
     ``rope``: both ends are held, free to turn; the last is drawn in until both are ``span`` apart.
@@ -25,6 +28,15 @@ class RodCase:
     span: float = 1.5  # m
     gravity: float = 9.81  # m/s^2
     damping: float = 10.0  # 1/s, of all motion: forces of -damping x mass x velocity
+
+    @property
+    def drawn_in(self) -> bool:
+        """Whether the last end moves at first."""
+        return self.load == ROPE
+
+    def draw_in(self, model: RodModel, progress: float, rate: float) -> None:
+        way = model.free_length - self.span
+        model.place_end(model.free_length - way * progress, -way * rate)
 
     @property
     def segment_length(self) -> float:

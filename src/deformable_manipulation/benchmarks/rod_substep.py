@@ -3,8 +3,8 @@
 import numpy as np
 
 from deformable_manipulation import _pbd
-from deformable_manipulation.benchmarks.harness import measure
-from deformable_manipulation.benchmarks.package_rod import SUBSTEP, add_copies, make_rod
+from deformable_manipulation.benchmarks.copies import COLUMNS, add_copies, time_substep
+from deformable_manipulation.benchmarks.package_rod import SUBSTEP, make_rod
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
 from deformable_manipulation.benchmarks.subject import Request
 from deformable_manipulation.benchmarks.table import Column, Table
@@ -16,19 +16,14 @@ CALL = 20  # substeps in one call of the timed Rod.step
 CARRIED = (0.0, -0.02, 0.05)  # m/s, of the last end: a rod at rest could be less work
 LEAD_TIME = 2.0  # s, until the copies have arrived at their displacements
 
-COLUMNS = (
-    Column("solver", "solver"),
-    Column("segments", "segments", "d"),
-    Column("copies", "copies", "d"),
-    Column("median_us", "median [µs]", ".2f"),
-    Column("minimum_us", "minimum [µs]", ".2f"),
-    Column("per_copy_us", "median per copy [µs]", ".3f"),
-)
+CASE_COLUMNS = (Column("solver", "solver"), Column("segments", "segments", "d"))
 
 
 def substep_table(request: Request) -> Table:
     """Time every combination."""
-    table = Table("substep", "One substep of the rope, all copies, one thread", COLUMNS)
+    table = Table(
+        "substep", "One substep of the rope, all copies, one thread", CASE_COLUMNS + COLUMNS
+    )
     for solver in SOLVERS:
         for segments in SEGMENTS[:1] if request.quick else SEGMENTS:
             for copies in COPIES:
@@ -43,21 +38,8 @@ def substep_table(request: Request) -> Table:
 
 def _row(solver: str, segments: int, copies: int, request: Request) -> dict:
     rod = carried_rope(solver, segments, copies)
-    time_step = CALL * SUBSTEP[solver]
-    timing = measure(
-        lambda state: state.step(time_step, CALL), prepare=rod.clone, effort=request.effort
-    ).per(CALL)
-    return {
-        "solver": solver,
-        "segments": segments,
-        "copies": copies,
-        "median_us": 1e6 * timing.median,
-        "minimum_us": 1e6 * timing.minimum,
-        "per_copy_us": 1e6 * timing.median / copies,
-        "quartiles_us": [1e6 * timing.quantile(0.25), 1e6 * timing.quantile(0.75)],
-        "substeps": timing.inner,
-        "repetitions": len(timing.seconds),
-    }
+    timing = time_substep(rod, SUBSTEP[solver], CALL, request.effort)
+    return {"solver": solver, "segments": segments, **timing}
 
 
 def carried_rope(solver: str, segments: int, copies: int) -> _pbd.Rod:

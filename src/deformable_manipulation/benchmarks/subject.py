@@ -41,6 +41,11 @@ SUBJECTS: Dict[str, Subject] = {
         "deformable_manipulation.benchmarks.rod",
         ("numpy",),
     ),
+    "fabric": Subject(
+        "a substep of a fabric and its copies; the same fabric in other libraries, with errors",
+        "deformable_manipulation.benchmarks.fabric",
+        ("numpy", "scipy"),
+    ),
     "qp": Subject(
         "the safety filter's quadratic program",
         "deformable_manipulation.benchmarks.qp",

@@ -11,35 +11,47 @@ from pathlib import Path
 import pytest
 
 from deformable_manipulation.benchmarks.machine import BUSY, describe_machine, load_warning
-from deformable_manipulation.benchmarks.rivals.catalogue import RIVALS
+from deformable_manipulation.benchmarks.rivals.catalogue import FABRIC_RIVALS, ROD_RIVALS
 from deformable_manipulation.benchmarks.subject import SUBJECTS
 from deformable_manipulation.commands.benchmark import main
 
 DOCUMENT = Path(__file__).parents[3] / "docs" / "benchmarks.md"
 
 
-class RodRun:
-    """What a run of the subject ``rod`` left, without the other libraries."""
+class Run:
+    """What a run of a subject left, without the other libraries."""
 
-    def __init__(self, folder):
+    def __init__(self, subject, folder):
         self.output = folder / "results"
         self.document = folder / "benchmarks.md"
         shutil.copy(DOCUMENT, self.document)
-        arguments = ["rod", "--quick", "--rivals", str(folder / "nowhere")]
+        arguments = [subject, "--quick", "--rivals", str(folder / "nowhere")]
         arguments += ["--output", str(self.output), "--update-docs", str(self.document)]
         shown, said = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(said):
             self.status = main(arguments)
         self.shown, self.said = shown.getvalue(), said.getvalue()
-        self.data = json.loads((self.output / "rod.json").read_text(encoding="utf-8"))
+        file = self.output / f"{subject}.json"
+        self.data = json.loads(file.read_text(encoding="utf-8"))
 
     def rows(self, table):
         return self.data["tables"][table]["rows"]
 
 
+def require_no_numbers_of_missing_libraries(run, rivals):
+    rows = run.rows("comparison")
+    missing = [row for row in rows if row["library"] != "this package"]
+    assert len(missing) == len(rivals)
+    for row in missing:
+        assert "not installed: benchmark --install-rivals" in row["remark"]
+        assert not any(isinstance(value, float) for value in row.values())
+    own = [row for row in rows if row["library"] == "this package"]
+    assert own and all(abs(row["error_percent"]) < 0.1 for row in own)
+
+
 @pytest.fixture(scope="module")
 def rod_run(tmp_path_factory):
-    return RodRun(tmp_path_factory.mktemp("rod"))
+    return Run("rod", tmp_path_factory.mktemp("rod"))
 
 
 def test_rod_measures_every_combination(rod_run):
@@ -68,14 +80,26 @@ def test_rod_writes_what_it_measured(rod_run):
 
 
 def test_libraries_that_are_not_installed_have_no_numbers(rod_run):
-    rows = rod_run.rows("comparison")
-    missing = [row for row in rows if row["library"] != "this package"]
-    assert len(missing) == len(RIVALS)
-    for row in missing:
-        assert "not installed: benchmark --install-rivals" in row["remark"]
-        assert not any(isinstance(value, float) for value in row.values())
-    own = [row for row in rows if row["library"] == "this package"]
-    assert own and all(abs(row["error_percent"]) < 0.1 for row in own)
+    require_no_numbers_of_missing_libraries(rod_run, ROD_RIVALS)
+
+
+def test_fabric_measures_every_combination_and_its_memory(tmp_path):
+    run = Run("fabric", tmp_path)
+    assert run.status == 0
+    rows = run.rows("substep")
+    assert {(row["particles"], row["copies"]) for row in rows} == {
+        (particles, copies) for particles in ("8x8", "15x15") for copies in (1, 4, 8, 13, 19)
+    }
+    for row in rows:
+        assert 0.0 < row["minimum_us"] <= row["median_us"] < math.inf
+    memory = {row["copies"]: row["memory"] for row in rows if row["particles"] == "15x15"}
+    if not math.isnan(memory[1]):
+        # Positions, those before and velocities of eight copies are the least.
+        assert 3 * 225 * 3 * 8 * 8e-6 < memory[8] < memory[13] < memory[19] < 2.0
+    assert run.data["machine"]["chosen instruction set"] in "\n".join(
+        run.data["tables"]["substep"]["notes"]
+    )
+    require_no_numbers_of_missing_libraries(run, FABRIC_RIVALS)
 
 
 def test_qp_end_to_end(tmp_path, capsys):

@@ -7,9 +7,10 @@ import sys
 
 import pytest
 
+from deformable_manipulation.benchmarks.fabric_comparison import contest
 from deformable_manipulation.benchmarks.harness import QUICK
 from deformable_manipulation.benchmarks.rivals import environment
-from deformable_manipulation.benchmarks.rivals.catalogue import RIVALS, Rival
+from deformable_manipulation.benchmarks.rivals.catalogue import FABRIC_RIVALS, ROD_RIVALS, Rival
 from deformable_manipulation.benchmarks.rivals.environment import (
     InstallationError,
     default_environment,
@@ -46,7 +47,7 @@ def own_environment(make_environment):
     )
 
 
-@pytest.mark.parametrize("rival", RIVALS, ids=str)
+@pytest.mark.parametrize("rival", [*ROD_RIVALS, *FABRIC_RIVALS], ids=str)
 def test_without_the_environment_nothing_is_installed(rival, tmp_path):
     outcome = run_in(tmp_path / "nowhere", rival, CASE, QUICK)
     assert outcome.trial is None
@@ -69,7 +70,7 @@ def test_a_library_that_does_not_load_says_so(own_environment):
 
 def test_a_crash_is_reported_with_its_last_words(make_environment):
     script = "import sys; print('some trace', file=sys.stderr); sys.exit('out of rope')"
-    outcome = run_in(make_environment(script), RIVALS[0], CASE, QUICK)
+    outcome = run_in(make_environment(script), ROD_RIVALS[0], CASE, QUICK)
     assert outcome.trial is None
     assert "status 1" in outcome.problem and "out of rope" in outcome.problem
 
@@ -80,15 +81,16 @@ def test_the_job_reaches_the_library_and_its_result_comes_back(make_environment)
         "import json, os, sys\n"
         "job = json.load(sys.stdin)\n"
         "job['threads'] = os.environ['OMP_NUM_THREADS']\n"
-        "trial = dict(points=[[0, 0]], arc_lengths=[0], free_length=1.0, overhang=0.0,\n"
-        "             time_step=0.1, settings=json.dumps(job), settling_time=None)\n"
+        "trial = dict(points=[[0, 0]], time_step=0.1, settings=json.dumps(job),\n"
+        "             settling_time=None)\n"
         "print('chatter')\n"
         "json.dump({'version': '7', 'trial': trial}, open(sys.argv[-1], 'w'))"
     )
-    outcome = run_in(make_environment(script), RIVALS[1], CASE, QUICK)
+    outcome = run_in(make_environment(script), ROD_RIVALS[1], CASE, QUICK)
     assert (outcome.version, outcome.problem) == ("7", "")
     job = json.loads(outcome.trial.settings)
-    assert job["rival"]["options"] == RIVALS[1].options
+    assert job["rival"]["options"] == ROD_RIVALS[1].options
+    assert job["kind"] == "RodCase"
     assert (job["case"]["segments"], job["case"]["young_modulus"]) == (28, 3.0e7)
     assert job["effort"]["repetitions"] == QUICK.repetitions
     assert job["threads"] == "1"
@@ -115,13 +117,16 @@ def test_a_failed_installation_leaves_nothing_behind(make_environment, tmp_path,
     assert not (tmp_path / "env").exists()
 
 
-@pytest.mark.skipif(
+with_libraries = pytest.mark.skipif(
     not interpreter(default_environment()).is_file(),
     reason="the other libraries are not installed: scripts/benchmark --install-rivals",
 )
+
+
+@with_libraries
 @pytest.mark.parametrize("load", [ROPE, CANTILEVER])
 @pytest.mark.parametrize(
-    "rival", [rival for rival in RIVALS if rival.name != "PyElastica"], ids=str
+    "rival", [rival for rival in ROD_RIVALS if rival.name != "PyElastica"], ids=str
 )
 def test_the_other_libraries_come_near_theory(rival, load):
     # PyElastica takes millions of steps.
@@ -130,3 +135,12 @@ def test_the_other_libraries_come_near_theory(rival, load):
     assert not outcome.problem and outcome.trial.settling_time < 10.0
     assert abs(error_of(outcome.trial, case)) < 3e-3
     assert not os.path.exists("MUJOCO_LOG.TXT")
+
+
+@with_libraries
+@pytest.mark.parametrize("rival", FABRIC_RIVALS, ids=str)
+def test_the_other_libraries_hang_a_cloth_near_the_equilibrium_of_its_mesh(rival):
+    cloth = contest(8)
+    outcome = run_in(default_environment(), rival, cloth.case, QUICK)
+    assert not outcome.problem and outcome.trial.settling_time < 10.0
+    assert cloth.error_of(outcome.trial, cloth.case) < 0.03

@@ -9,19 +9,19 @@ import pytest
 from deformable_manipulation.benchmarks import rod_comparison
 from deformable_manipulation.benchmarks.harness import Effort
 from deformable_manipulation.benchmarks.package_rod import PackageRod
-from deformable_manipulation.benchmarks.rivals.catalogue import RIVALS
+from deformable_manipulation.benchmarks.rivals.catalogue import ROD_RIVALS
 from deformable_manipulation.benchmarks.rod_case import CANTILEVER, ROPE
 from deformable_manipulation.benchmarks.rod_comparison import make_case
+from deformable_manipulation.benchmarks.rod_model import UndampedRodModel
 from deformable_manipulation.benchmarks.rod_theory import error_of
-from deformable_manipulation.benchmarks.rod_trial import (
+from deformable_manipulation.benchmarks.subject import Request
+from deformable_manipulation.benchmarks.trial import (
     DRAW_IN,
     SETTLED,
     Trial,
     TrialError,
-    UndampedRodModel,
     run_trial,
 )
-from deformable_manipulation.benchmarks.subject import Request
 from deformable_manipulation.validation.references.elastica import (
     Pinned,
     solve_between,
@@ -99,7 +99,8 @@ def test_a_state_that_breaks_down_is_an_error():
 
 
 def trial_at(points, arcs, free_length, overhang=0.0):
-    return Trial(points.tolist(), arcs.tolist(), free_length, overhang, 0.01, "exact", 1.0, [1e-6])
+    measures = {"arc_lengths": arcs.tolist(), "free_length": free_length, "overhang": overhang}
+    return Trial(points.tolist(), 0.01, "exact", 1.0, [1e-6], measures)
 
 
 def test_the_error_of_the_exact_rope_is_zero_and_of_another_what_it_is_off():
@@ -147,6 +148,6 @@ def test_a_rod_of_the_package_that_breaks_down_is_a_row_like_any_other(monkeypat
     monkeypatch.setattr(rod_comparison, "_cases", lambda quick: [heavy])
     request = Request(True, Path("nowhere"), lambda what: None)
     rows = rod_comparison.comparison_table(request).rows
-    assert len(rows) == len(rod_comparison.OWN) + len(RIVALS)
+    assert len(rows) == len(rod_comparison.OWN) + len(ROD_RIVALS)
     for row in rows:
         assert "median_us" not in row and row["remark"].startswith(("failed", "not installed"))

@@ -7,10 +7,13 @@ from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 
+from deformable_manipulation.benchmarks.fabric_case import FabricCase
 from deformable_manipulation.benchmarks.harness import Effort
 from deformable_manipulation.benchmarks.rivals.subprocess_trial import NOT_INSTALLED
 from deformable_manipulation.benchmarks.rod_case import RodCase
-from deformable_manipulation.benchmarks.rod_trial import TrialError, run_trial
+from deformable_manipulation.benchmarks.trial import TrialError, run_trial
+
+CASES = {kind.__name__: kind for kind in (RodCase, FabricCase)}
 
 
 def main() -> int:
@@ -21,7 +24,7 @@ def main() -> int:
 
 
 def _answer(job: dict) -> dict:
-    rival, case = job["rival"], RodCase(**job["case"])
+    rival, case = job["rival"], CASES[job["kind"]](**job["case"])
     try:
         version = metadata.version(rival["distribution"])
         adapter = importlib.import_module(f"{__package__}.{rival['module']}")

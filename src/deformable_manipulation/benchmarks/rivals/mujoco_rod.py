@@ -3,8 +3,9 @@
 import mujoco
 import numpy as np
 
+from deformable_manipulation.benchmarks.rivals.mujoco_warnings import require_stable
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel, TrialError, UndampedRodModel
+from deformable_manipulation.benchmarks.rod_model import RodModel, UndampedRodModel
 
 TIME_STEP = 0.005  # s
 FINE_TIME_STEP = 0.002  # s, its default: needed for more segments than
@@ -99,8 +100,7 @@ class MujocoRod(UndampedRodModel):
         self._data.mocap_pos[0] = (x, 0.0, 0.0)
 
     def points(self) -> np.ndarray:
-        if any(warning.number for warning in self._data.warning):
-            raise TrialError("MuJoCo warns that the simulation is unstable")
+        require_stable(self._data)
         mujoco.mj_kinematics(self._model, self._data)
         bodies = slice(1, len(self._arcs) + self._first)  # 0 is the world
         starts = self._data.xpos[bodies]

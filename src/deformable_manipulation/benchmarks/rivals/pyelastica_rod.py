@@ -4,7 +4,7 @@ import elastica
 import numpy as np
 
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel
+from deformable_manipulation.benchmarks.rod_model import RodModel
 
 SAFETY = 0.8  # of the largest time step that is stable
 SHEAR_CORRECTION = 27.0 / 28.0  # the library's, for a circle
@@ -27,7 +27,6 @@ class ElasticaRod(RodModel):
     The quickest motion limits the time step: the cross-sections' rotation in shear, at
     2/r sqrt(k G / density), whatever the number of elements.
     """
-
 
     def __init__(self, case: RodCase):
         self._rope = case.load == ROPE

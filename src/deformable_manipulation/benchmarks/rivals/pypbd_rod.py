@@ -3,8 +3,9 @@
 import numpy as np
 import pypbd
 
+from deformable_manipulation.benchmarks.rivals.pypbd_stepper import Stepper
 from deformable_manipulation.benchmarks.rod_case import ROPE, RodCase
-from deformable_manipulation.benchmarks.rod_trial import RodModel, UndampedRodModel
+from deformable_manipulation.benchmarks.rod_model import RodModel, UndampedRodModel
 
 TIME_STEP = 0.005  # s, that of the library's own demonstration of stiff rods
 
@@ -19,7 +20,7 @@ class PyPbdRod(UndampedRodModel):
 
     The chain's tree has one root, so a rope whose ends are held gets a ball joint at the middle of
     its first and of its last body, each to a static body; iterations alternate between joints and
-    chain. The library's vertical axis is y.
+    chain.
     """
 
     time_step = TIME_STEP
@@ -28,15 +29,8 @@ class PyPbdRod(UndampedRodModel):
         self.settings = f"direct solver for rods, iterations: {iterations}"
         self._length = case.segment_length
         self._rope = case.load == ROPE
-        simulation = pypbd.Simulation.getCurrent()
-        simulation.initDefault()
-        self._model = simulation.getModel()
-        self._stepper = simulation.getTimeStep()
-        kind = pypbd.TimeStepController
-        self._stepper.setValueUInt(kind.NUM_SUB_STEPS, 1)
-        self._stepper.setValueUInt(kind.MAX_ITERATIONS, iterations)
-        self._stepper.setValueUInt(kind.MAX_ITERATIONS_V, 0)
-        pypbd.TimeManager.getCurrent().setTimeStepSize(TIME_STEP)
+        self._stepper = Stepper(TIME_STEP, iterations)
+        self._model = self._stepper.model
         self._mesh = _cube()
         self._bodies = self._make_chain(case)
         self._hold(case)
@@ -83,8 +77,7 @@ class PyPbdRod(UndampedRodModel):
         return body
 
     def advance(self, count: int) -> None:
-        for _ in range(count):
-            self._stepper.step(self._model)
+        self._stepper.advance(count)
 
     def damp(self, factor: float) -> None:
         for body in self._bodies:

@@ -11,8 +11,7 @@ from typing import Optional
 from deformable_manipulation.benchmarks.harness import Effort
 from deformable_manipulation.benchmarks.rivals.catalogue import Rival
 from deformable_manipulation.benchmarks.rivals.environment import INSTALL, interpreter
-from deformable_manipulation.benchmarks.rod_case import RodCase
-from deformable_manipulation.benchmarks.rod_trial import Trial
+from deformable_manipulation.benchmarks.trial import Case, Trial
 
 SOURCES = Path(__file__).resolve().parents[3]  # the folder that holds this package
 CHILD = "deformable_manipulation.benchmarks.rivals.child"
@@ -35,12 +34,13 @@ class Outcome:
     problem: str = ""
 
 
-def run_in(environment: Path, rival: Rival, case: RodCase, effort: Effort) -> Outcome:
+def run_in(environment: Path, rival: Rival, case: Case, effort: Effort) -> Outcome:
     """Run the trial of a library, in one thread."""
     python = interpreter(environment)
     if not python.is_file():
         return Outcome(None, "", NOT_INSTALLED)
-    job = {"rival": asdict(rival), "case": asdict(case), "effort": asdict(effort)}
+    job = {"rival": asdict(rival), "kind": type(case).__name__, "case": asdict(case)}
+    job["effort"] = asdict(effort)
     # A folder of its own: libraries leave logs where they are started.
     with tempfile.TemporaryDirectory(prefix="benchmark_") as folder:
         result = Path(folder) / "result.json"
