@@ -4,12 +4,12 @@ import time
 
 from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.observation import Observation
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation import make_simulation
-from deformable_manipulation.stretch import rod_stretch
+from deformable_manipulation.stretch import StretchGauge
 
 _PROGRESS_REPORTS = 100
 
@@ -34,7 +34,7 @@ class ClosedLoop:
             for index in scenario.assistants
         }
         self._points = self._simulation.points()
-        self._segment_length = scenario.object.length / scenario.object.segments
+        self._stretch = StretchGauge(scenario.object)
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
@@ -79,7 +79,7 @@ class ClosedLoop:
             cycle=observation.cycle,
             time=observation.time,
             distance=float(observation.distances.minimum[0]),
-            stretch=rod_stretch(points, self._segment_length),
+            stretch=self._stretch.measure(points),
             positions=observation.positions,
             velocities=velocities,
             points=points,
@@ -116,8 +116,15 @@ class ClosedLoop:
         return None if isinstance(response, str) else response
 
 
-def make_minimum_distance(scenario: Scenario) -> PlanarMinimumDistance:
-    """The distance computation for a scenario's object and obstacles."""
-    return PlanarMinimumDistance(
-        scenario.obstacles, scenario.object.radius, scenario.controller.collision.band, "segments"
-    )
+def make_minimum_distance(scenario: Scenario):
+    """The distance computation for a scenario's object and obstacles, by the chosen backend.
+
+    Raises ValueError: an obstacle's file cannot be read, or its shape is none.
+    """
+    body, collision = scenario.object, scenario.controller.collision
+    backend = MinimumDistance
+    if collision.backend == "reference":
+        from deformable_manipulation.distance.reference import ReferenceMinimumDistance
+
+        backend = ReferenceMinimumDistance
+    return backend(scenario.obstacles, body.margin, collision.band, "elements", body.triangles)

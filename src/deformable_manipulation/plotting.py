@@ -12,7 +12,6 @@ from matplotlib.patches import Patch
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.run_data import AssistantSeries, RunData
 from deformable_manipulation.recording.timeseries import AXES
-from deformable_manipulation.stretch import LARGEST_VALID_STRETCH
 
 COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
 PANEL_HEIGHT = 1.0  # in, with its legend
@@ -124,14 +123,15 @@ def _finish_figure(
         handles=handles,
         loc="outside upper center",
         ncols=max(1, len(handles)),
-        title=_title(run, series),
+        title=title_of(run, series.agent),
         borderaxespad=0.4,
     )
 
 
-def _title(run: RunData, series: AssistantSeries) -> str:
-    title = f"{run.name}: {series.agent}"
-    if run.max_stretch is None or run.max_stretch <= LARGEST_VALID_STRETCH:
+def title_of(run: RunData, what: str = "") -> str:
+    """Title of a figure of a run, which tells where its shapes mean nothing."""
+    title = f"{run.name}: {what}" if what else run.name
+    if run.max_stretch is None or run.max_stretch <= run.valid_stretch:
         return title
     return f"{title}\nNOT VALID: object stretched by up to {100.0 * run.max_stretch:.1f} %"
 

@@ -1,15 +1,24 @@
 """The simulation core for a scenario."""
 
+from functools import singledispatch
+
+import numpy as np
+
 from deformable_manipulation import _pbd
-from deformable_manipulation.scenario.spec import RodSpec, Scenario
+from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Scenario, SimulationSpec
 
 
-def make_body(scenario: Scenario) -> _pbd.Body:
+@singledispatch
+def make_body(spec, simulation: SimulationSpec) -> _pbd.Body:
     """The scenario's object, undeformed and held nowhere.
 
     Raises _pbd.ParameterError: a parameter is out of range.
     """
-    spec: RodSpec = scenario.object
+    raise TypeError("no simulation of objects of {}".format(type(spec).__name__))
+
+
+@make_body.register(RodSpec)
+def _make_rod(spec: RodSpec, simulation: SimulationSpec) -> _pbd.Rod:
     return _pbd.Rod(
         length=spec.length,
         radius=spec.radius,
@@ -19,8 +28,24 @@ def make_body(scenario: Scenario) -> _pbd.Body:
         torsion_modulus=spec.torsion_modulus,
         stretch=spec.stretch,
         damping=spec.damping,
-        solver=scenario.simulation.solver,
-        gravity=scenario.simulation.gravity,
+        solver=simulation.solver,
+        gravity=simulation.gravity,
+        position=spec.pose.position,
+        orientation=spec.pose.orientation,
+    )
+
+
+@make_body.register(FabricSpec)
+def _make_fabric(spec: FabricSpec, simulation: SimulationSpec) -> _pbd.Body:
+    return _pbd.Fabric(
+        vertices=np.array(spec.vertices),
+        triangles=np.array(spec.triangles),
+        density=spec.density,
+        thickness=spec.thickness,
+        stretching_compliance=spec.stretching_compliance,
+        bending_compliance=spec.bending_compliance,
+        damping=spec.damping,
+        gravity=simulation.gravity,
         position=spec.pose.position,
         orientation=spec.pose.orientation,
     )
@@ -52,7 +77,7 @@ def make_simulation(scenario: Scenario) -> _pbd.Simulation:
         for agent in scenario.agents
     ]
     return _pbd.Simulation(
-        make_body(scenario),
+        make_body(scenario.object, scenario.simulation),
         agents,
         perturbations(scenario),
         time_step=scenario.simulation.time_step,

@@ -1,4 +1,4 @@
-"""Reading text files that a user names, whatever the name may turn out to stand for."""
+"""Reading files that a user names, whatever the name may turn out to stand for."""
 
 import os
 import stat
@@ -7,7 +7,7 @@ LARGEST_FILE = 16_000_000  # bytes, some hundred times what any file read here n
 
 
 class TextFileError(ValueError):
-    """A file cannot be read as text; the message says why, without the file's name."""
+    """A file cannot be read; the message says why, without the file's name."""
 
 
 def read_text(path, largest: int = LARGEST_FILE) -> str:
@@ -18,6 +18,15 @@ def read_text(path, largest: int = LARGEST_FILE) -> str:
     Raises TextFileError: there is no such file, it may not be read, is no regular file, has more
     than ``largest`` bytes, or is not UTF-8.
     """
+    data = read_bytes(path, largest)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise TextFileError("is not UTF-8 text: {}".format(error)) from error
+
+
+def read_bytes(path, largest: int) -> bytes:
+    """The content of a regular file. Raises TextFileError as read_text does."""
     try:
         data = _read_regular(path, largest + 1)
     except OSError as error:
@@ -26,10 +35,7 @@ def read_text(path, largest: int = LARGEST_FILE) -> str:
         raise TextFileError("cannot be read: {}".format(error)) from error
     if len(data) > largest:
         raise TextFileError("has more than {} bytes; is it the right file?".format(largest))
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TextFileError("is not UTF-8 text: {}".format(error)) from error
+    return data
 
 
 def _read_regular(path, count: int) -> bytes:

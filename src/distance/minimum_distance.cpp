@@ -26,6 +26,9 @@ void requireGeometry(const ObjectView& object) {
   if (object.copies < 1 || object.point_count < 2) {
     throw std::invalid_argument("an object must have at least one copy and two points");
   }
+  if (object.triangles != nullptr && object.triangle_count < 1) {
+    throw std::invalid_argument("a surface must have at least one triangle");
+  }
   const long numbers = 3L * object.copies * object.point_count;
   const double* end = object.points + numbers;
   const double* found =
@@ -93,6 +96,7 @@ const Distances& MinimumDistance::compute(const ObjectView& object) {
   for (Feature& feature : result_.features) {
     feature.distance -= margin_;
   }
+  tracker_.follow(object, selection_, &result_);
   return result_;
 }
 

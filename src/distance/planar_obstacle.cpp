@@ -1,21 +1,19 @@
 #include "deformable_manipulation/distance/planar_obstacle.h"
 
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "planar_frame.h"
 #include "planar_local_minima.h"
 #include "planar_polyline.h"
 #include "planar_surface.h"
+#include "pose_checks.h"
 #include "ring_crossing.h"
 
 namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kOnBoundary = 1e-9;     // m, distance below which the direction to the boundary is rounding
-constexpr double kUnitTolerance = 1e-6;  // of a quaternion's length
+constexpr double kOnBoundary = 1e-9;  // m, distance below which the direction to the boundary is rounding
 constexpr const char* kAxisNames = "xyz";
 
 //! The axes of a plane, two different letters in their order.
@@ -26,33 +24,6 @@ std::array<int, 2> axesOf(const std::string& plane, std::vector<std::string>* pr
   }
   const std::string names = kAxisNames;
   return {static_cast<int>(names.find(plane[0])), static_cast<int>(names.find(plane[1]))};
-}
-
-void checkVector(const char* name, const char* unit, const Vector3& vector, std::vector<std::string>* problems) {
-  if (!vector.allFinite()) {
-    std::ostringstream text;
-    text << name << " is " << vector.transpose() << "; it must be three finite numbers of " << unit;
-    problems->push_back(text.str());
-  }
-}
-
-void checkPose(const Vector3& translation, const pbd::Quaternion& rotation, std::vector<std::string>* problems) {
-  checkVector("translation", "metres", translation, problems);
-  if (!(std::fabs(rotation.norm() - 1.0) <= kUnitTolerance)) {
-    std::ostringstream text;
-    text << "rotation is " << rotation.coeffs().transpose() << "; it must be a quaternion x, y, z, w of length 1";
-    problems->push_back(text.str());
-  }
-}
-
-void throwIfAny(const std::vector<std::string>& problems) {
-  std::string text;
-  for (const std::string& problem : problems) {
-    text += (text.empty() ? "" : "\n") + problem;
-  }
-  if (!text.empty()) {
-    throw std::invalid_argument(text);
-  }
 }
 
 }  // namespace
@@ -176,8 +147,7 @@ PlanarObstacle::~PlanarObstacle() = default;
 void PlanarObstacle::setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
   std::vector<std::string> problems;
   checkPose(translation, rotation, &problems);
-  checkVector("linear velocity", "m/s", velocity.linear, &problems);
-  checkVector("angular velocity", "rad/s", velocity.angular, &problems);
+  checkTwist(velocity, &problems);
   throwIfAny(problems);
   search_->setPose(translation, rotation, velocity);
 }

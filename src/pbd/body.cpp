@@ -107,7 +107,7 @@ int Body::addCopy(int particle, const Vector3& displacement) {
   held(particle);
   const double length = displacement.norm();
   double longest = 0.0;
-  for (int other : {0, particleCount() - 1}) {
+  for (int other = 0; other < particleCount(); ++other) {
     longest = std::max(longest, freeLength(particle, other));
   }
   if (!std::isfinite(length) || length == 0.0 || length > longest) {

@@ -50,5 +50,29 @@ void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double
   }
 }
 
+void rigidMotion(const std::vector<PointMotion>& points, double* velocity) {
+  double mass = 0.0;
+  Vector3 centre = Vector3::Zero();
+  Vector3 drift = Vector3::Zero();
+  for (const PointMotion& point : points) {
+    mass += point.mass;
+    centre += point.mass * point.position;
+    drift += point.mass * point.velocity;
+  }
+  centre /= mass;
+  drift /= mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Vector3 angular_momentum = Vector3::Zero();
+  for (const PointMotion& point : points) {
+    const Vector3 arm = point.position - centre;
+    inertia += point.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    angular_momentum += point.mass * arm.cross(point.velocity - drift);
+  }
+  const Vector3 spin = inertia.ldlt().solve(angular_momentum);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    write(velocity, static_cast<int>(i), drift + spin.cross(points[i].position - centre));
+  }
+}
+
 }  // namespace pbd
 }  // namespace deformable_manipulation

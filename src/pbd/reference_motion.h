@@ -8,7 +8,7 @@ namespace deformable_manipulation {
 namespace pbd {
 
 // Damping acts on the motion relative to a reference, so that an object carried along keeps the
-// shape it has at rest. Both functions write [n x 3] m/s and [n x 3] rad/s.
+// shape it has at rest. The functions write [n x 3] m/s and [n x 3] rad/s.
 
 //! Motion of the held points, blended linearly along a chain of n particles between neighbouring holds.
 //! @pre holds is sorted by particle and not empty
@@ -25,6 +25,16 @@ struct SegmentMotion {
 //! The rigid motion with the same momentum and angular momentum as a free chain of equal segments.
 void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia,
                  double axial_inertia, double* velocity, double* angular_velocity);
+
+//! A vertex as a point mass.
+struct PointMotion {
+  double mass;       // kg
+  Vector3 position;  // m
+  Vector3 velocity;  // m/s
+};
+
+//! The rigid motion with the same momentum and angular momentum as free points, [points x 3] m/s.
+void rigidMotion(const std::vector<PointMotion>& points, double* velocity);
 
 }  // namespace pbd
 }  // namespace deformable_manipulation

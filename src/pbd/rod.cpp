@@ -31,37 +31,14 @@ constexpr double kClampedInertia = 1e30;
 // the inertia would be lost in the rounding of the stiffness. Steel in segments of 2 mm has 1e9.
 constexpr double kRigidStiffness = 1e12;
 
-void copyLane(AlignedArray& to_array, int to, const AlignedArray& from_array, int from) {
-  for (std::size_t i = 0; i < to_array.size(); i += kLanes) {
-    to_array[i + to] = from_array[i + from];
-  }
-}
-
-Vector3 read3(const AlignedArray& array, int item, int lane) {
-  const double* at = array.data() + 3 * kLanes * item + lane;
-  return {at[0], at[kLanes], at[2 * kLanes]};
-}
-
 Quaternion read4(const AlignedArray& array, int item, int lane) {
   const double* at = array.data() + 4 * kLanes * item + lane;
   return {at[3 * kLanes], at[0], at[kLanes], at[2 * kLanes]};
 }
 
-void write3(AlignedArray& array, int item, int lane, const Vector3& value) {
-  for (int axis = 0; axis < 3; ++axis) {
-    array[(3 * item + axis) * kLanes + lane] = value[axis];
-  }
-}
-
 void write4(AlignedArray& array, int item, int lane, const Quaternion& value) {
   for (int i = 0; i < 4; ++i) {
     array[(4 * item + i) * kLanes + lane] = value.coeffs()[i];
-  }
-}
-
-void unpack(const AlignedArray& array, int lane, double* to) {
-  for (std::size_t i = lane, end = array.size(); i < end; i += kLanes) {
-    *to++ = array[i];
   }
 }
 

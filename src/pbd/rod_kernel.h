@@ -3,13 +3,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "aligned_array.h"
+#include "lanes.h"
 
 namespace deformable_manipulation {
 namespace pbd {
-
-//! Copies that advance together: one SIMD lane each.
-constexpr int kLanes = 8;
 
 //! State of eight copies of a rod. Layout: [segment or joint][component][lane].
 struct RodLanes {
@@ -89,8 +86,7 @@ namespace avx512 {
 RodKernel rodKernel();
 }
 
-//! The fastest kernel that this processor runs. The environment variable
-//! DEFORMABLE_MANIPULATION_INSTRUCTION_SET (portable, avx2, avx512) narrows the choice.
+//! The kernel for selectedInstructionSet().
 const RodKernel& selectedRodKernel();
 
 //! The kernels that this processor runs, slowest first.

@@ -1,6 +1,4 @@
-#include <cstdlib>
-#include <string>
-
+#include "instruction_set.h"
 #include "rod_equilibrium_kernel.h"
 #include "rod_kernel.h"
 
@@ -8,17 +6,17 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-RodKernel select() {
-  const std::vector<RodKernel> kernels = availableRodKernels();
-  const char* wanted = std::getenv("DEFORMABLE_MANIPULATION_INSTRUCTION_SET");
-  if (wanted != nullptr) {
-    for (const RodKernel& kernel : kernels) {
-      if (kernel.instruction_set == std::string(wanted)) {
-        return kernel;
-      }
-    }
+RodKernel kernelFor(InstructionSet instruction_set) {
+#ifdef DEFORMABLE_MANIPULATION_X86_KERNELS
+  if (instruction_set == InstructionSet::AVX512) {
+    return avx512::rodKernel();
   }
-  return kernels.back();
+  if (instruction_set == InstructionSet::AVX2) {
+    return avx2::rodKernel();
+  }
+#endif
+  (void)instruction_set;
+  return portable::rodKernel();
 }
 
 }  // namespace
@@ -33,31 +31,24 @@ RodLanes::RodLanes(int segments)
       multiplier(6 * kLanes * (segments - 1)) {}
 
 std::vector<RodKernel> availableRodKernels() {
-  std::vector<RodKernel> kernels = {portable::rodKernel()};
-#ifdef DEFORMABLE_MANIPULATION_X86_KERNELS
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    kernels.push_back(avx2::rodKernel());
+  std::vector<RodKernel> kernels;
+  for (InstructionSet instruction_set : availableInstructionSets()) {
+    kernels.push_back(kernelFor(instruction_set));
   }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
-    kernels.push_back(avx512::rodKernel());
-  }
-#endif
   return kernels;
 }
 
 const RodKernel& selectedRodKernel() {
-  static const RodKernel kernel = select();
+  static const RodKernel kernel = kernelFor(selectedInstructionSet());
   return kernel;
 }
 
 RodEquilibriumKernel selectedRodEquilibriumKernel() {
 #ifdef DEFORMABLE_MANIPULATION_X86_KERNELS
-  const std::string instruction_set = selectedRodKernel().instruction_set;
-  if (instruction_set == "avx512") {
+  if (selectedInstructionSet() == InstructionSet::AVX512) {
     return avx512::rodEquilibriumKernel();
   }
-  if (instruction_set == "avx2") {
+  if (selectedInstructionSet() == InstructionSet::AVX2) {
     return avx2::rodEquilibriumKernel();
   }
 #endif

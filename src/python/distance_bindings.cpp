@@ -5,20 +5,18 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "deformable_manipulation/distance/minimum_distance.h"
+#include "distance_arguments.h"
 
 namespace py = pybind11;
 using namespace deformable_manipulation::distance;
-using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Triangles = std::vector<std::array<int, 3>>;
 
 void bindPlanarObstacle(py::module_& module);
+void bindMeshObstacle(py::module_& module);
 
 namespace {
 
@@ -59,33 +57,13 @@ py::array_t<double> vectors(const Distances& distances, Vector3 Feature::*member
 }
 
 py::tuple toTuple(const Distances& d) {
-  return py::make_tuple(
-      py::array_t<double>(static_cast<py::ssize_t>(d.minimum.size()), d.minimum.data()),
-      py::array_t<int>(static_cast<py::ssize_t>(d.offsets.size()), d.offsets.data()), column(d, &Feature::distance),
-      column(d, &Feature::obstacle), vectors(d, &Feature::object_point), vectors(d, &Feature::obstacle_point),
-      vectors(d, &Feature::normal), rows<int>(d, [](const Feature& f) { return f.vertices.data(); }),
-      rows<double>(d, [](const Feature& f) { return f.weights.data(); }), vectors(d, &Feature::obstacle_velocity));
-}
-
-//! Indices of points, refused where they are none: a cast would wrap or cut them.
-Triangles toTriangles(const py::array& given, py::ssize_t points) {
-  const char kind = given.dtype().kind();
-  if ((kind != 'i' && kind != 'u') || given.ndim() != 2 || given.shape(0) < 1 || given.shape(1) != 3) {
-    throw py::value_error("triangles must be whole numbers of the shape (triangles >= 1, 3), or None for a polyline");
-  }
-  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> wide(given);
-  Triangles triangles(static_cast<std::size_t>(wide.shape(0)));
-  for (py::ssize_t t = 0; t < wide.shape(0); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t vertex = wide.at(t, k);
-      if (vertex < 0 || vertex >= points) {
-        throw py::value_error("triangle " + std::to_string(t) + " refers to point " + std::to_string(vertex) +
-                              "; there are points 0 to " + std::to_string(points - 1));
-      }
-      triangles[t][k] = static_cast<int>(vertex);
-    }
-  }
-  return triangles;
+  return py::make_tuple(py::array_t<double>(static_cast<py::ssize_t>(d.minimum.size()), d.minimum.data()),
+                        py::array_t<int>(static_cast<py::ssize_t>(d.offsets.size()), d.offsets.data()),
+                        column(d, &Feature::distance), column(d, &Feature::obstacle),
+                        vectors(d, &Feature::object_point), vectors(d, &Feature::obstacle_point),
+                        vectors(d, &Feature::normal), rows<int>(d, [](const Feature& f) { return f.vertices.data(); }),
+                        rows<double>(d, [](const Feature& f) { return f.weights.data(); }),
+                        vectors(d, &Feature::obstacle_velocity), column(d, &Feature::identity));
 }
 
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
@@ -104,9 +82,9 @@ py::tuple compute(MinimumDistance& distance, const Points& points, const py::obj
   object.points = points.data();
   object.copies = static_cast<int>(points.shape(0));
   object.point_count = static_cast<int>(points.shape(1));
-  Triangles faces;
+  std::vector<std::array<int, 3>> faces;
   if (!triangles.is_none()) {
-    faces = toTriangles(py::array::ensure(triangles), points.shape(1));
+    faces = toTriangles(triangles, points.shape(1), "point", "points");
     object.triangles = faces.data();
     object.triangle_count = static_cast<int>(faces.size());
   }
@@ -119,6 +97,7 @@ PYBIND11_MODULE(_distance, module) {
   module.doc() = "Signed minimum distances between a deformable object's copies and obstacles (C++ core).";
   py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.");
   bindPlanarObstacle(module);
+  bindMeshObstacle(module);
   py::class_<MinimumDistance>(
       module, "MinimumDistance",
       "Signed minimum distances between all copies of an object and several obstacles, from surface to surface.\n\n"

@@ -2,9 +2,10 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
-#include <string>
+#include <memory>
 
 #include "deformable_manipulation/ObjectState.h"
+#include "object_drawing.h"
 
 namespace deformable_manipulation {
 
@@ -12,14 +13,13 @@ namespace deformable_manipulation {
 //! z blue), and the agents with their names.
 class ObjectMarkers {
  public:
-  //! @param diameter  of the rod [m]
-  explicit ObjectMarkers(double diameter);
+  explicit ObjectMarkers(const ObjectShape& shape) : drawing_(makeDrawing(shape)) {}
 
   //! Copies that are gone since the last call are deleted.
   visualization_msgs::MarkerArray draw(const ObjectState& state);
 
  private:
-  double width_;
+  std::unique_ptr<ObjectDrawing> drawing_;
   std::size_t copies_drawn_ = 0;
 };
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "agent_link.h"
-#include "deformable_manipulation/pbd/rod_parameters.h"
 #include "deformable_manipulation/pbd/simulation.h"
+#include "object_reader.h"
 
 namespace deformable_manipulation {
 
@@ -15,7 +15,7 @@ namespace deformable_manipulation {
 struct SimulatorScenario {
   std::string name;
   std::string frame;
-  pbd::RodParameters rod;
+  ObjectParameters object;
   std::vector<pbd::Agent> agents;
   std::vector<bool> is_assistant;   // one per agent
   std::vector<DrivenBy> driven_by;  // one per agent

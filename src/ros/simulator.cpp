@@ -3,7 +3,6 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
-#include "deformable_manipulation/pbd/rod.h"
 #include "state_message.h"
 
 namespace deformable_manipulation {
@@ -27,10 +26,10 @@ void spinFor(double seconds) { ros::getGlobalCallbackQueue()->callAvailable(ros:
 Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       options_(options),
-      simulation_(std::make_unique<pbd::Rod>(scenario.rod), scenario.agents, scenario.perturbations, scenario.clock),
+      simulation_(makeBody(scenario.object), scenario.agents, scenario.perturbations, scenario.clock),
       object_services_(node_, simulation_),
       control_(node_),
-      visualization_(node_, 2.0 * scenario.rod.radius, options.tf_prefix) {
+      visualization_(node_, shapeOf(scenario.object), options.tf_prefix) {
   if (!simulation_.settled()) {
     ROS_WARN(
         "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "

@@ -2,23 +2,27 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+
 namespace deformable_manipulation {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(40);
+constexpr std::chrono::microseconds kPeriod(40000);
+constexpr std::chrono::microseconds kPeriodPerTriangle(30);
 
 }  // namespace
 
-Visualization::Visualization(ros::NodeHandle& node, double diameter, std::string tf_prefix)
-    : object_(diameter),
+Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, std::string tf_prefix)
+    : object_(shape),
       tf_prefix_(std::move(tf_prefix)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 4)),
-      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)) {}
+      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)),
+      period_(std::max(kPeriod, kPeriodPerTriangle * static_cast<long>(shape.triangles.size()))) {}
 
 void Visualization::show(const ObjectState& state) {
   trails_.add(state);  // every state, so that a trail does not depend on the machine's speed
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < kPeriod) {
+  if (now - last_ < period_) {
     return;
   }
   last_ = now;

@@ -12,12 +12,12 @@
 
 namespace deformable_manipulation {
 
-//! Markers and tf of the states, at most 25 times per second, while somebody subscribes.
+//! Markers and tf of the states while somebody subscribes, at most 25 times per second; a large fabric
+//! less often, so that drawing it does not hold up the simulation.
 class Visualization {
  public:
-  //! @param diameter  of the rod [m]
   //! @param tf_prefix  put before the agents' names to make their tf frames
-  Visualization(ros::NodeHandle& node, double diameter, std::string tf_prefix);
+  Visualization(ros::NodeHandle& node, const ObjectShape& shape, std::string tf_prefix);
 
   void show(const ObjectState& state);
 
@@ -28,6 +28,7 @@ class Visualization {
   TrailMarkers trails_;
   std::string tf_prefix_;
   ros::Publisher markers_, transforms_;
+  std::chrono::microseconds period_;
   std::chrono::steady_clock::time_point last_;
   ros::Time transforms_stamp_;
   std::uint32_t listeners_ = 0;  // subscribers of the transforms at the last time

@@ -1,62 +1,27 @@
-// Nothing is allocated inside a step. This file counts the calls of operator new of the whole
-// test program.
+// Nothing is allocated inside a step.
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <string>
 
+#include "allocations.h"
+#include "fabric_fixture.h"
 #include "rod_fixture.h"
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, whole > 0 ? whole : alignment);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
 long allocationsIn(Body& body, int substeps) {
-  const long before = allocations;
+  const long before = test::allocations();
   body.step(0.01, substeps);
-  return allocations - before;
+  return test::allocations() - before;
 }
 
 TEST(Allocation, isCounted) {
-  const long before = allocations;
+  const long before = test::allocations();
   const auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  EXPECT_GT(allocations - before, 10);
+  EXPECT_GT(test::allocations() - before, 10);
 }
 
 TEST(Allocation, doesNotHappenInAStep) {
@@ -82,6 +47,26 @@ TEST(Allocation, doesNotHappenInAStep) {
 TEST(Allocation, doesNotHappenInAStepOfAFreeRod) {
   Rod rod(rope());
   EXPECT_EQ(allocationsIn(rod, 2), 0);
+}
+
+TEST(Allocation, doesNotHappenInAStepOfAFabric) {
+  for (int threads : {1, 2}) {
+    for (int copies : {1, 13}) {
+      FabricParameters p = cloth();
+      p.vertices[20].z() += 0.1;  // not flat: free lengths go along the surface
+      p.threads = threads;
+      const auto fabric = hangingCloth(p);
+      for (int i = 1; i < copies; ++i) {
+        fabric->addCopy(224, Vector3(0.0, 0.0, 0.01 * i));
+      }
+      fabric->setTwist(224, {Vector3(0.0, -0.1, 0.0), Vector3::Zero()});
+      for (int substeps : {2, 50}) {
+        EXPECT_EQ(allocationsIn(*fabric, substeps), 0) << copies << " copies, " << threads << " threads";
+      }
+    }
+  }
+  Fabric free(cloth());
+  EXPECT_EQ(allocationsIn(free, 2), 0);
 }
 
 }  // namespace

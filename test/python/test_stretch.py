@@ -1,14 +1,17 @@
 """Objects pulled apart are recognised, and told wherever a run is told."""
 
+import dataclasses
 import json
+import math
 
 import numpy as np
 import pytest
 
 from deformable_manipulation.commands import plot_run, run_scenario
 from deformable_manipulation.recording import read_run
-from deformable_manipulation.scenario import package_share_directory
-from deformable_manipulation.stretch import largest_stretch, rod_stretch
+from deformable_manipulation.scenario import load_scenario, package_share_directory
+from deformable_manipulation.scenario.spec import FabricSpec, RodSpec
+from deformable_manipulation.stretch import StretchGauge, largest_stretch, valid_stretch
 
 SHORT_ROPE = package_share_directory() / "test" / "rostest" / "short_rope.yaml"
 LINE = np.array([[0.0, 0.0, 0.0], [0.3, 0.4, 0.0], [0.3, 0.4, 0.5], [0.3, 0.9, 0.5]])
@@ -19,7 +22,37 @@ def test_the_segment_changed_most_tells(change):
     points = LINE.copy()
     points[-1, 1] += 0.5 * change
     points[1:, 0] += 0.001
-    assert rod_stretch(points, 0.5) == pytest.approx(change or 0.0012, rel=1e-2)
+    rod = RodSpec(1.5, 0.01, 1000.0, 3, 1e7, 1e7)
+    assert StretchGauge(rod).measure(points) == pytest.approx(change or 0.0012, rel=1e-2)
+
+
+SQUARE = FabricSpec(
+    vertices=((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (0.5, 0.5, 0.0), (0.0, 0.5, 0.0)),
+    triangles=((0, 1, 2), (0, 2, 3)),
+    density=2.0,
+    thickness=0.001,
+    stretching_compliance=1e-3,
+    bending_compliance=1.0,
+)
+
+
+@pytest.mark.parametrize("change", [0.1, -0.1])
+def test_the_edge_of_a_fabric_changed_most_tells(change):
+    points = np.array(SQUARE.vertices)
+    points[3] = [0.0, 0.0, 0.5 + 0.5 * change]  # folded up and pulled: two of five edges change
+    stretched = np.linalg.norm(points[3] - points[2]) / 0.5 - 1.0
+    largest = stretched if abs(stretched) > abs(change) else change
+    assert StretchGauge(SQUARE).measure(points) == pytest.approx(largest)
+    assert StretchGauge(SQUARE).measure(np.array(SQUARE.vertices) + 1.0) == pytest.approx(0.0)
+
+
+def test_a_fabric_may_yield_by_ten_times_its_weight():
+    scenario = load_scenario(SHORT_ROPE)
+    assert valid_stretch(scenario) == 0.01
+    fabric = dataclasses.replace(scenario, object=SQUARE)
+    mean_length = (4 * 0.5 + math.sqrt(0.5)) / 5
+    weight = 2.0 * 0.25 * 9.81
+    assert valid_stretch(fabric) == pytest.approx(0.01 + 10 * 1e-3 * weight / mean_length)
 
 
 def test_the_largest_of_a_run():
@@ -66,11 +99,13 @@ def test_plots_of_a_torn_rope_say_so(torn, monkeypatch):
     titles = []
     monkeypatch.setattr(
         "deformable_manipulation.plotting.save_figure",
-        lambda figure, path: titles.append(figure.legends[0].get_title().get_text()),
+        lambda figure, path: titles.append(
+            figure.legends[0].get_title().get_text() if figure.legends else figure.get_suptitle()
+        ),
     )
     assert plot_run.main([str(folder)]) == 0
-    assert len(titles) == 1
-    assert "NOT VALID: object stretched by up to" in titles[0]
+    assert len(titles) == 2
+    assert all("NOT VALID: object stretched by up to" in title for title in titles)
 
 
 def test_folders_that_tell_no_stretch_are_read(torn, tmp_path):
@@ -80,3 +115,11 @@ def test_folders_that_tell_no_stretch_are_read(torn, tmp_path):
     kept = [[cell for i, cell in enumerate(row.split(",")) if i != column] for row in rows]
     (tmp_path / "timeseries.csv").write_text("\n".join(",".join(row) for row in kept) + "\n")
     assert read_run(tmp_path).max_stretch is None
+
+
+def test_what_is_valid_comes_from_the_summary(torn, tmp_path):
+    folder, summary = torn
+    (tmp_path / "timeseries.csv").write_text((folder / "timeseries.csv").read_text())
+    assert read_run(tmp_path).valid_stretch == 0.01  # recorded by an earlier version
+    (tmp_path / "summary.json").write_text(json.dumps(dict(summary, valid_stretch=0.07)))
+    assert read_run(tmp_path).valid_stretch == 0.07

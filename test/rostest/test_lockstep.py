@@ -20,6 +20,7 @@ from observed_run import (
 )
 
 from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.msg import ObjectState
 
 TOLERANCE = 1e-9  # m and m/s: rounding
 
@@ -39,6 +40,14 @@ class LockstepTest(unittest.TestCase):
         self.assertEqual({state.reset_count for state in self.states}, {0})
         stamps = [state.header.stamp.to_sec() for state in self.states]
         np.testing.assert_allclose(np.diff(stamps), self.scenario.cycle_time, 0.0, 1e-8)
+
+    def test_the_state_tells_what_is_carried(self):
+        is_fabric = self.scenario.object.type == "fabric"
+        state = self.states[0]
+        self.assertEqual(state.object_type, ObjectState.FABRIC if is_fabric else ObjectState.ROD)
+        self.assertEqual(state.particle_count, self.scenario.object.particles)
+        self.assertEqual(state.point_count, state.particle_count + (not is_fabric))
+        self.assertEqual(len(state.orientations), 0 if is_fabric else 4 * state.particle_count)
 
     def test_the_object_keeps_its_distance(self):
         compute = make_minimum_distance(self.scenario).compute

@@ -18,6 +18,7 @@ from deformable_manipulation.scenario import load_scenario, scenario_to_mapping
 
 NODES = ("simulator_node", "minimum_distance_node", "leader_node", "controller_node")
 SHORT_ROPE = Path(__file__).resolve().parent / "short_rope.yaml"
+SMALL_FABRIC = SHORT_ROPE.with_name("small_fabric.yaml")
 
 
 def start(command, **environment):
@@ -96,6 +97,21 @@ class RefusalsTest(unittest.TestCase):
         scenario["controller"]["rate"] = "fast"
         rospy.set_param("/wrong/scenario", scenario)
         self.assert_all_refuse("/wrong", "object.length", "controller.rate", "fast")
+
+    def test_a_mesh_that_has_gone(self):
+        scenario = correct_scenario()
+        scenario["obstacles"].append({"name": "cube", "mesh": "/nowhere/cube.obj"})
+        rospy.set_param("/gone/scenario", scenario)
+        self.assert_refuses(
+            start_node("minimum_distance_node", "/gone"), "obstacles cannot be used", "/nowhere"
+        )
+
+    def test_a_wrong_fabric(self):
+        scenario = scenario_to_mapping(load_scenario(SMALL_FABRIC))
+        scenario["object"]["mesh"]["vertices"][12] = [0.0, 0.0]
+        scenario["object"]["thickness"] = "thin"
+        rospy.set_param("/fabric/scenario", scenario)
+        self.assert_all_refuse("/fabric", "object.mesh.vertices.12", "object.thickness")
 
     def test_a_controller_of_nobody(self):
         rospy.set_param("/right/scenario", correct_scenario())

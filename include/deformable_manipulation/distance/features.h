@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "deformable_manipulation/pbd/types.h"
@@ -23,6 +24,7 @@ struct Feature {
   Vector3 obstacle_velocity = Vector3::Zero();  //!< [m/s] of the obstacle at its point
   std::array<int, 3> vertices = {0, 0, 0};
   std::array<double, 3> weights = {0.0, 0.0, 0.0};  //!< not negative, sum 1
+  std::int64_t identity = -1;                       //!< the same from call to call, see FeatureTracker; -1: none
 };
 
 //! Features of C copies of an object; those of copy c are features[offsets[c]] to

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "deformable_manipulation/distance/feature_tracker.h"
 #include "deformable_manipulation/distance/obstacle.h"
 
 namespace deformable_manipulation {
@@ -18,7 +19,7 @@ class MinimumDistance {
   MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band, Selection selection);
 
   //! Copy 0 has all its features within the band, every other copy its minimum alone.
-  //! The result is valid until the next call.
+  //! All but the features' identities depends on the arguments alone. The result is valid until the next call.
   //! @throw std::invalid_argument if there is no copy, a copy has fewer than two points, a triangle refers to
   //! a point that does not exist, or a coordinate is not finite or beyond 1e6 m.
   const Distances& compute(const ObjectView& object);
@@ -30,6 +31,7 @@ class MinimumDistance {
   double margin_;
   double band_;
   Selection selection_;
+  FeatureTracker tracker_;
   Distances result_;
   std::vector<Feature> nearest_;  // [copies] over the obstacles so far
   std::vector<Feature> of_one_;   // [copies] of one obstacle

@@ -55,4 +55,9 @@ SUBJECTS: Dict[str, Subject] = {
         "the nodes in real time: from a state to its commands, processor time and memory",
         "deformable_manipulation.benchmarks.loop",
     ),
+    "distance": Subject(
+        "minimum distances to polygons and meshes, beside Shapely, FCL and Trimesh",
+        "deformable_manipulation.benchmarks.distance",
+        ("numpy", "shapely", "python-fcl", "trimesh"),
+    ),
 }

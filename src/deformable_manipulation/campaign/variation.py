@@ -10,7 +10,7 @@ import numpy as np
 from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
 from deformable_manipulation.closed_loop import make_minimum_distance
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
@@ -140,7 +140,7 @@ def _factor(largest: float, random) -> float:
 
 def _clearance(scenario: Scenario):
     """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size."""
-    distance = PlanarMinimumDistance(scenario.obstacles, scenario.object.radius)
+    distance = MinimumDistance(scenario.obstacles, scenario.object.margin)
 
     def clearance(points):
         # Each point as a copy of a polyline that is nowhere else.

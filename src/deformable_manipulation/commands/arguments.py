@@ -2,7 +2,7 @@
 
 import argparse
 import re
-from typing import List, Tuple
+from typing import List, Sequence, Tuple
 
 # Where the next key of several begins: values may have blanks, too.
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
@@ -39,3 +39,16 @@ def overrides(text: str) -> List[Tuple[str, str]]:
     Raises argparse.ArgumentTypeError where one is not of that form.
     """
     return [override(item) for item in _NEXT_KEY.split(text.strip()) if item]
+
+
+def times_of(text: str) -> Sequence[float]:
+    """Times [s] separated by commas; raises argparse.ArgumentTypeError where they are not."""
+    try:
+        times = [float(item) for item in text.split(",")]
+    except ValueError:
+        times = [-1.0]
+    if not all(0.0 <= time < float("inf") for time in times):
+        raise argparse.ArgumentTypeError(
+            f"'{text}' are no times: numbers from 0 on, separated by commas, as in 30,60,130"
+        )
+    return times

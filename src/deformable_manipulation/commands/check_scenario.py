@@ -14,7 +14,7 @@ from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
-from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.spec import PolygonObstacle, RodSpec, Scenario
 
 _EXAMPLES = """\
 examples:
@@ -64,12 +64,31 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def describe_object(spec) -> str:
+    """What is carried, in a few words."""
+    if isinstance(spec, RodSpec):
+        return "rod of {:g} m, radius {:g} m, {} segments".format(
+            spec.length, spec.radius, spec.segments
+        )
+    sizes = (max(axis) - min(axis) for axis in zip(*spec.vertices))
+    return "fabric of {} m, {:g} kg/m^2, {} particles, {} triangles".format(
+        " x ".join("{:.4g}".format(size) for size in sizes if size),
+        spec.density,
+        spec.particles,
+        len(spec.triangles),
+    )
+
+
+def describe_obstacle(spec) -> str:
+    """What kind of obstacle it is, in a few words."""
+    if isinstance(spec, PolygonObstacle):
+        return "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+    return "mesh {}, scale {}".format(spec.mesh, " x ".join("{:g}".format(s) for s in spec.scale))
+
+
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
-    rod = scenario.object
-    yield "object: {} of {:g} m, radius {:g} m, {} segments".format(
-        rod.type, rod.length, rod.radius, rod.segments
-    )
+    yield "object: {}".format(describe_object(scenario.object))
     for agent in scenario.agents:
         yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
             agent.name,
@@ -87,9 +106,7 @@ def summary(scenario: Scenario) -> Iterator[str]:
             limits.max_distance,
         )
     for obstacle in scenario.obstacles:
-        yield "obstacle {}: polygon of {} points, plane {}".format(
-            obstacle.name, len(obstacle.points), obstacle.plane
-        )
+        yield "obstacle {}: {}".format(obstacle.name, describe_obstacle(obstacle))
     yield "distance to keep from obstacles: {:g} m".format(scenario.controller.collision.offset)
     yield "leader's path: {} waypoints, {:g} s".format(
         len(scenario.leader.waypoints), scenario.leader.waypoints[-1].time

@@ -5,15 +5,19 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
+from deformable_manipulation.commands.arguments import times_of
 from deformable_manipulation.recording import RunData, RunDataError, read_run
+from deformable_manipulation.recording.frames import read_frames
 
 FORMATS = ("png", "pdf", "svg")
-DESCRIPTION = """Make the data plots of a run, one figure per controller: distance with its offset
+DESCRIPTION = """Make the data plots of a run. One figure per controller: distance with its offset
 (cut off at five times that), tracking error, margins to overstretch and proximity,
-nominal and commanded velocity."""
+nominal and commanded velocity. One overview: overlaid snapshots of obstacles, object and agents,
+the places that the assistants would keep, and distance, errors and margins of all of them."""
 EXAMPLES = """examples:
   plot_run output/rope_one_assistant_20250131_120000
   plot_run run.bag --output figures --format png,pdf
+  plot_run output/trial --times 30,60,130,160
   plot_run output/run.bag --namespace left --show
 """
 
@@ -28,7 +32,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 1
     for note in run.notes:
         print(f"note: {note}", file=sys.stderr)
-    figures = _draw(run, arguments.show)
+    figures = _draw(run, arguments.times, arguments.show)
     try:
         _save(run, figures, arguments.output, arguments.format)
     except OSError as error:
@@ -55,6 +59,12 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="FORMATS",
         help="one or more of {}, separated by commas (default: png)".format(", ".join(FORMATS)),
     )
+    parser.add_argument(
+        "--times",
+        type=times_of,
+        metavar="T1,T2,...",
+        help="seconds at which the overview shows the object (default: telling ones)",
+    )
     parser.add_argument("--namespace", help="which run, where a bag holds several side by side")
     parser.add_argument("--show", action="store_true", help="also open the figures in windows")
     return parser.parse_args(argv)
@@ -70,19 +80,30 @@ def _formats(text: str) -> List[str]:
     return names
 
 
-def _draw(run: RunData, show: bool) -> Dict[str, object]:
+def _draw(run: RunData, times: Optional[Sequence[float]], show: bool) -> Dict[str, object]:
+    """Figures by the names of their files."""
     # Imported late: matplotlib takes longer to load than a wrong path to be told.
+    from deformable_manipulation.overview_plot import plot_overview
     from deformable_manipulation.plotting import plot_controller
 
     figures = {}
     for series in run.assistants:
-        figure = None
-        if show:
-            from matplotlib import pyplot
-
-            figure = pyplot.figure(f"{run.name}: {series.agent}")
-        figures[series.agent] = plot_controller(run, series, figure)
+        window = _window(f"{run.name}: {series.agent}") if show else None
+        figures[f"controller_{series.agent}"] = plot_controller(run, series, window)
+    try:
+        frames = read_frames(run)
+    except RunDataError as error:
+        print(f"note: no overview: {error}", file=sys.stderr)
+    else:
+        window = _window(run.name) if show else None
+        figures["overview"] = plot_overview(run, frames, times, window)
     return figures
+
+
+def _window(title: str):
+    from matplotlib import pyplot
+
+    return pyplot.figure(title)
 
 
 def _save(run: RunData, figures, output: Optional[str], formats: Sequence[str]) -> None:
@@ -92,9 +113,9 @@ def _save(run: RunData, figures, output: Optional[str], formats: Sequence[str]) 
     folder = Path(output) if output else (run.path if is_folder else run.path.parent)
     folder.mkdir(parents=True, exist_ok=True)
     prefix = "" if is_folder else run.name + "_"
-    for agent, figure in figures.items():
+    for name, figure in figures.items():
         for ending in formats:
-            path = folder / f"{prefix}controller_{agent}.{ending}"
+            path = folder / f"{prefix}{name}.{ending}"
             save_figure(figure, path)
             print(path)
 

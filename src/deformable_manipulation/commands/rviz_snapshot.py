@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import add_scenario_arguments, times_of
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible
@@ -103,19 +103,6 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="how long to wait for each picture (default: 60)",
     )
     return parser.parse_args(argv)
-
-
-def times_of(text: str) -> Sequence[float]:
-    """Times [s] separated by commas; raises argparse.ArgumentTypeError where they are not."""
-    try:
-        times = [float(item) for item in text.split(",")]
-    except ValueError:
-        times = [-1.0]
-    if not all(0.0 <= time < float("inf") for time in times):
-        raise argparse.ArgumentTypeError(
-            f"'{text}' are no times: numbers from 0 on, separated by commas, as in 30,60,130"
-        )
-    return times
 
 
 def size_of(text: str) -> Tuple[int, int]:

@@ -21,9 +21,10 @@ CASE_NAMES = (
     "convergence",
     "motion",
     "wrenches",
+    "fabrics",
 )
-DESCRIPTION = """Compare the simulated rod with independent solutions of rod theory: shapes,
-reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
+DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory:
+shapes, reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
 EPILOG = """examples:
   validate                               docs/validation.md, some minutes
   validate --quick                       fewer segments, less than a minute

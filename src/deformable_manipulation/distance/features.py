@@ -1,9 +1,11 @@
 """The result of a distance computation: nearest features of every copy of the object."""
 
 from dataclasses import dataclass
-from typing import Tuple
+from typing import Optional, Tuple
 
 import numpy as np
+
+NOT_FOLLOWED = -1  # identity of a feature that has none
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,8 @@ class Distances:
     vertices: np.ndarray  # (M, 3) int, geometry points; unused ones have weight 0
     weights: np.ndarray  # (M, 3) non-negative, sum 1
     obstacle_velocity: np.ndarray  # (M, 3) m/s, of the obstacle at its point
+    # (M,) int, the same feature has the same number from call to call, or NOT_FOLLOWED; None: all
+    identity: Optional[np.ndarray] = None
     names: Tuple[str, ...] = ()  # of the obstacles
 
     def of_copy(self, copy: int) -> slice:

@@ -20,6 +20,10 @@ class PlaneFrame:
         axes = np.eye(3)[list(PLANE_AXES[plane])]
         self._axes = np.array([rotate(tuple(unit), tuple(axis)) for axis in axes])
 
+    def flatten(self, vectors):
+        """Vectors (..., 3) of the fixed frame, seen along the normal, as vectors (..., 2)."""
+        return vectors @ self._axes.T
+
     def lift(self, vectors):
         """Vectors (..., 2) in the plane as vectors (..., 3) in the fixed frame."""
         return vectors @ self._axes

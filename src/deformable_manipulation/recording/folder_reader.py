@@ -1,6 +1,7 @@
 """Reads the folder that ``run_scenario`` wrote."""
 
 import csv
+import json
 from pathlib import Path
 from typing import Dict, List, Tuple
 
@@ -14,7 +15,7 @@ from deformable_manipulation.recording.run_data import (
     make_assistant_series,
     offset_of,
 )
-from deformable_manipulation.stretch import largest_stretch
+from deformable_manipulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
 
 STATUS_SUFFIX = ".status"  # only assistants have a status
 
@@ -49,7 +50,17 @@ def read_folder(folder: Path) -> RunData:
         offset=offset_of(assistants),
         assistants=assistants,
         max_stretch=largest_stretch(columns.get("stretch", np.empty(0))),
+        valid_stretch=_read_valid_stretch(folder / run_files.SUMMARY),
     )
+
+
+def _read_valid_stretch(path: Path) -> float:
+    """From the summary; what holds for rods where it is not told, as by earlier versions."""
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        return float(summary["valid_stretch"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return LARGEST_VALID_STRETCH
 
 
 def _read_rows(path: Path) -> Tuple[List[str], List[List[str]]]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.timeseries import vector_columns
+from deformable_manipulation.stretch import LARGEST_VALID_STRETCH
 
 BAG_SUFFIXES = (".bag", ".bag.active")
 
@@ -44,6 +45,7 @@ class RunData:
     offset: Optional[float]  # m, distance to keep; None: no controller has computed it
     assistants: Tuple[AssistantSeries, ...]
     max_stretch: Optional[float] = None  # largest relative change of length; None: not recorded
+    valid_stretch: float = LARGEST_VALID_STRETCH  # of an object in use; beyond it nothing is valid
     notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
 
 

@@ -1,7 +1,6 @@
 """Records a run and writes its files, also those of a run that was interrupted."""
 
 from pathlib import Path
-from typing import Optional
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.summary import summarise, write_summary
 from deformable_manipulation.recording.timeseries import CycleRecord, TimeSeries
 from deformable_manipulation.scenario import scenario_to_yaml
-from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.spec import FabricSpec, Scenario
 
 # Keeps a frame that is due at a whole cycle from slipping to the next one by rounding.
 FRAME_TOLERANCE = 1e-9
@@ -28,19 +27,17 @@ class RunRecorder:
         directory,
         safety: bool = True,
         overwrite: bool = False,
-        faces: Optional[np.ndarray] = None,
     ):
         """Prepare the folder and write the scenario into it.
 
         ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
-        holds a run already; ``faces`` (F, 3) are the triangles of a fabric.
+        holds a run already.
 
         Raises RecordingError: the folder holds a run already or cannot be written.
         """
         self.directory = Path(directory)
         self._scenario = scenario
         self._safety = safety
-        self._faces = faces
         names = tuple(agent.name for agent in scenario.agents)
         assistants = tuple(names[index] for index in scenario.assistants)
         self._series = TimeSeries(names, assistants, rows=scenario.cycles + 1)
@@ -109,6 +106,6 @@ class RunRecorder:
             "agents": np.array(agents, np.float32).reshape(len(times), len(agent_names), 3),
             "agent_names": np.array(agent_names),
         }
-        if self._faces is not None:
-            arrays["faces"] = np.asarray(self._faces, dtype=np.int32)
+        if isinstance(self._scenario.object, FabricSpec):
+            arrays["faces"] = np.array(self._scenario.object.triangles, dtype=np.int32)
         np.savez_compressed(file, **arrays)

@@ -10,7 +10,7 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
+from deformable_manipulation.stretch import largest_stretch, valid_stretch
 
 
 def summarise(
@@ -20,12 +20,13 @@ def summarise(
 
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
     ``max_stretch`` the largest relative change of length anywhere in it; where that is more than
-    what the object's material allows, ``shape_valid`` is false.
+    what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
     Lengths are in m, times in s unless the key says ms.
     """
     offset = scenario.controller.collision.offset
     min_distance = _lowest(series.column("distance"))
     max_stretch = largest_stretch(series.column("stretch"))
+    valid = valid_stretch(scenario)
     status = _of_assistants(series, "status")
     return {
         "scenario": scenario.name,
@@ -39,7 +40,8 @@ def summarise(
         "offset": offset,
         "worst_violation": 0.0 if min_distance is None else max(0.0, offset - min_distance),
         "max_stretch": max_stretch,
-        "shape_valid": max_stretch is None or max_stretch <= LARGEST_VALID_STRETCH,
+        "valid_stretch": valid,
+        "shape_valid": max_stretch is None or max_stretch <= valid,
         "min_stretch_margin": _lowest(_of_assistants(series, "h_overstretch")),
         "min_proximity_margin": _lowest(_of_assistants(series, "h_proximity")),
         "tracking_error": {
@@ -80,9 +82,9 @@ def describe(summary: dict) -> str:
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))
     if not summary["shape_valid"]:
         lines.append(
-            "WARNING: the object was stretched or squeezed by up to {:.1f} %; beyond {:.0f} % its "
+            "WARNING: the object was stretched or squeezed by up to {:.1f} %; beyond {:.1f} % its "
             "shape and distances are not valid".format(
-                100.0 * summary["max_stretch"], 100.0 * LARGEST_VALID_STRETCH
+                100.0 * summary["max_stretch"], 100.0 * summary["valid_stretch"]
             )
         )
     lines.append("QPs relaxed {qp_relaxed}, failed {qp_failed}".format(**summary))

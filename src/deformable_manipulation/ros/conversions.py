@@ -7,7 +7,7 @@ Agents are matched by name: a message may list them in another order than the sc
 import numpy as np
 
 from deformable_manipulation.control.observation import Observation
-from deformable_manipulation.distance.features import Distances
+from deformable_manipulation.distance.features import NOT_FOLLOWED, Distances
 
 
 class MessageError(ValueError):
@@ -100,6 +100,7 @@ def to_distances(message) -> Distances:
         vertices=_reshaped(message.feature_vertices, "feature_vertices", vectors).astype(np.int64),
         weights=_reshaped(message.feature_weights, "feature_weights", vectors),
         obstacle_velocity=_reshaped(message.obstacle_velocities, "obstacle_velocities", vectors),
+        identity=_reshaped(message.feature_identities, "feature_identities", (features,)),
         names=tuple(message.obstacles),
     )
 
@@ -120,8 +121,15 @@ def fill_distances(message, state, distances, computation_time):
     message.obstacle_velocities = distances.obstacle_velocity.ravel()
     message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
     message.feature_weights = distances.weights.ravel()
+    message.feature_identities = _identities(distances)
     message.computation_time = computation_time
     return message
+
+
+def _identities(distances):
+    if distances.identity is None:
+        return np.full(len(distances.distance), NOT_FOLLOWED)
+    return distances.identity
 
 
 def fill_controller_state(message, state, agent, decision):

@@ -37,7 +37,7 @@ def start(name):
             "launch/run.launch, which checks the scenario file and puts it there."
         )
     try:
-        return scenario_from_mapping(rospy.get_param("scenario"), ".")
+        return scenario_from_mapping(rospy.get_param("scenario"), ".", files_are_read=True)
     except ScenarioError as error:
         refuse(f"Parameter {rospy.resolve_name('scenario')} is not a correct scenario:\n{error}")
 

@@ -1,12 +1,21 @@
 """Obstacles and nearest features for RViz."""
 
+from pathlib import Path
+
 import numpy as np
 import shapely
-from geometry_msgs.msg import Point
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
+from deformable_manipulation.distance.mesh_files import scaled_mesh
 from deformable_manipulation.distance.planes import PlaneFrame
+from deformable_manipulation.scenario.rotation import rotate
+from deformable_manipulation.scenario.spec import MeshObstacle
+
+# A mesh of more triangles is read from its file by RViz itself: to send it again and again for
+# viewers that come late would hold up the distances.
+_MOST_TRIANGLES = 1000
 
 _GROUND = np.array([0.80, 0.78, 0.74])  # red, green, blue
 _LINE = ColorRGBA(0.75, 0.0, 0.55, 1.0)
@@ -22,17 +31,41 @@ _AMBIENT = 0.6  # the share of light that comes from everywhere
 
 
 def obstacle_markers(obstacles, frame, half_width=0.25):
-    """The piece of each planar obstacle within ``half_width`` [m] of its plane."""
+    """Meshes, and the piece of each planar obstacle within ``half_width`` [m] of its plane.
+
+    Raises distance.mesh_files.MeshError: a mesh file cannot be read.
+    """
     markers = []
     for index, obstacle in enumerate(obstacles):
         marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST)
-        marker.scale.x = marker.scale.y = marker.scale.z = 1.0
-        marker.color.a = 1.0
-        corners = _prism(obstacle, half_width)
-        marker.points = [Point(*corner) for corner in corners]
-        marker.colors = [ColorRGBA(*color, 1.0) for color in _lit(corners) for _ in range(3)]
+        if isinstance(obstacle, MeshObstacle):
+            _draw_mesh(marker, obstacle)
+        else:
+            _draw_surface(marker, _prism(obstacle, half_width))
         markers.append(marker)
     return MarkerArray(markers)
+
+
+def _draw_surface(marker, corners):
+    """Triangles with corners (3 T, 3) [m] that face outwards."""
+    marker.scale.x = marker.scale.y = marker.scale.z = 1.0
+    marker.color.a = 1.0
+    marker.points = [Point(*corner) for corner in corners]
+    marker.colors = [ColorRGBA(*color, 1.0) for color in _lit(corners) for _ in range(3)]
+
+
+def _draw_mesh(marker, obstacle):
+    vertices, triangles = scaled_mesh(obstacle)
+    if len(triangles) > _MOST_TRIANGLES:
+        marker.type = Marker.MESH_RESOURCE
+        marker.mesh_resource = Path(obstacle.mesh).as_uri()
+        marker.color = ColorRGBA(*_GROUND, 1.0)
+        marker.pose = Pose(Point(*obstacle.translation), Quaternion(*obstacle.rotation))
+        marker.scale = Vector3(*obstacle.scale)
+        return
+    turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
+    placed = vertices @ turn + obstacle.translation
+    _draw_surface(marker, placed[triangles].reshape(-1, 3))
 
 
 def _lit(corners):

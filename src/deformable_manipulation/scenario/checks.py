@@ -116,8 +116,8 @@ def check_limits(
         if _exceeds(limits.max_distance, length):
             report.add(
                 ("controller", "overstretch", "max_distance"),
-                "must be at most the free length between {}, {:.4g} m; auto takes 99 % of "
-                "it".format(between, length),
+                "must be at most the free length between {}, {:.4g} m; auto takes a "
+                "fraction of it".format(between, length),
                 show(limits.max_distance),
             )
         elif limits.min_distance >= limits.max_distance:

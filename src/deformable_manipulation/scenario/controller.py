@@ -73,12 +73,18 @@ COLLISION = Section(
         "speed_margin": Number("s", at_least=0.0, at_most=10.0),
         "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "gradient": Choice("features", "minimum"),
+        "backend": Choice("native", "reference"),
     },
 )
 
 OVERSTRETCH = Section(
     OverstretchSpec,
-    {"max_distance": Auto("m", above=0.0), "margin": _MARGIN, "alpha": _ALPHA},
+    {
+        "max_distance": Auto("m", above=0.0),
+        "fraction": Number("1", above=0.0, at_most=1.0),
+        "margin": _MARGIN,
+        "alpha": _ALPHA,
+    },
 )
 
 PROXIMITY = Section(

@@ -1,5 +1,6 @@
 """What ``controller.formulation: paper`` says about the other keys of the controller."""
 
+import dataclasses
 from typing import Any, Dict
 
 from deformable_manipulation.scenario.errors import show
@@ -25,7 +26,7 @@ class FormulatedSection(Section):
     def read_parts(self, node: Node) -> Dict[str, Any]:
         value = node.value
         if isinstance(value, dict) and value.get("formulation") == PAPER:
-            node = Node(_completed(value, _PAPERS), node.path, node.report, node.directory)
+            node = dataclasses.replace(node, value=_completed(value, _PAPERS))
         return super().read_parts(node)
 
 

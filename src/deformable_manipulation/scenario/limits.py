@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from deformable_manipulation.scenario.objects import free_length
 from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario
 
-AUTO_MAX_DISTANCE = 0.99  # of the free length
 AUTO_MIN_DISTANCE = 0.10  # of the free length
 
 
@@ -31,6 +30,6 @@ def limits_between(
     max_distance = controller.overstretch.max_distance
     min_distance = controller.proximity.min_distance
     return PairLimits(
-        AUTO_MAX_DISTANCE * length if max_distance is None else max_distance,
+        controller.overstretch.fraction * length if max_distance is None else max_distance,
         AUTO_MIN_DISTANCE * length if min_distance is None else min_distance,
     )

@@ -1,5 +1,6 @@
 """Scenarios from files and mappings: every mistake is found in one pass."""
 
+import dataclasses
 from pathlib import Path
 from typing import Any, Dict, Iterable, Mapping, Union
 
@@ -21,7 +22,7 @@ from deformable_manipulation.scenario.readers import (
     Section,
     Unreadable,
 )
-from deformable_manipulation.scenario.simulation import SIMULATION
+from deformable_manipulation.scenario.simulation import SIMULATION, for_object
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.scenario.waypoints import LEADER_PATH
 
@@ -64,17 +65,23 @@ def load_scenario(path_or_name: Union[str, Path], overrides: Iterable[Override] 
 
 
 def scenario_from_mapping(
-    mapping: Mapping[str, Any], directory: Union[str, Path], default_name: str = "scenario"
+    mapping: Mapping[str, Any],
+    directory: Union[str, Path],
+    default_name: str = "scenario",
+    files_are_read: bool = False,
 ) -> Scenario:
     """Check a scenario given as plain values, such as the ``scenario`` parameter of a node.
 
     :param mapping: what the YAML file would hold.
     :param directory: where relative file names start.
     :param default_name: name of a scenario that has none of its own.
+    :param files_are_read: the mapping is a checked one (:func:`scenario_to_mapping`); the files
+        that it names are not read once more.
 
     Raises ScenarioError with all problems found.
     """
-    return _read_scenario(Node(mapping, (), Report(), Path(directory)), default_name, "")
+    root = Node(mapping, (), Report(), Path(directory), files_are_read)
+    return _read_scenario(root, default_name, "")
 
 
 def _read_scenario(root: Node, default_name: str, source: str) -> Scenario:
@@ -93,13 +100,15 @@ def _read_sections(root: Node, default_name: str) -> Dict[str, Any]:
     """The parts of a Scenario that can be read; raises Unreadable for no mapping at all."""
     if isinstance(root.value, dict):
         named = {"name": default_name, **root.value}
-        root = Node(named, root.path, root.report, root.directory)
+        root = dataclasses.replace(root, value=named)
     parts = SCENARIO.read_parts(root)
     if "agents" in parts:
         try:
             parts["agents"] = read_agents(parts["agents"], parts.get("object"))
         except Unreadable:
             del parts["agents"]
+    if "object" in parts and "simulation" in parts:
+        parts["simulation"] = for_object(root.report, parts["simulation"], parts["object"])
     return parts
 
 

@@ -5,19 +5,28 @@ from typing import Any, Dict
 
 import yaml
 
-from deformable_manipulation.scenario.spec import AgentSpec, PolygonObstacle, Scenario
+from deformable_manipulation.scenario.spec import (
+    AgentSpec,
+    FabricSpec,
+    PolygonObstacle,
+    RodSpec,
+    Scenario,
+)
 
 
 def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
     """The scenario as dicts, lists, strings, numbers and flags, with nothing left to look up.
 
-    Defaults are filled in, polygons are inline, distances that are found from the object are
-    ``auto``. :func:`~deformable_manipulation.scenario.loader.scenario_from_mapping` makes an equal
-    scenario of it. It suits the parameter server: no empty values, no large integers.
+    Defaults are filled in; polygons and fabrics are inline, mesh obstacles named by their absolute
+    paths; distances that are found from the object are ``auto``.
+    :func:`~deformable_manipulation.scenario.loader.scenario_from_mapping` makes an equal scenario
+    of it. It suits the parameter server: no empty values, no large integers.
     """
     mapping = _plain(scenario)
-    mapping["object"] = {"type": scenario.object.type, **mapping["object"]}
+    mapping["object"] = _object(scenario.object)
     mapping["agents"] = {agent.name: _agent(agent) for agent in scenario.agents}
+    if not isinstance(scenario.object, RodSpec):
+        del mapping["simulation"]["solver"]
     mapping["obstacles"] = [_obstacle(obstacle) for obstacle in scenario.obstacles]
     return mapping
 
@@ -33,9 +42,19 @@ def _agent(agent: AgentSpec) -> Dict[str, Any]:
     return mapping
 
 
-def _obstacle(obstacle: PolygonObstacle) -> Dict[str, Any]:
+def _object(spec) -> Dict[str, Any]:
+    mapping = _plain(spec)
+    if isinstance(spec, FabricSpec):
+        mesh = {key: mapping.pop(key) for key in ("vertices", "triangles")}
+        mapping = {"mesh": mesh, **mapping}
+    return {"type": spec.type, **mapping}
+
+
+def _obstacle(obstacle) -> Dict[str, Any]:
     mapping = _plain(obstacle)
-    return {"name": mapping.pop("name"), "polygon": mapping.pop("points"), **mapping}
+    if isinstance(obstacle, PolygonObstacle):
+        mapping = {"name": mapping.pop("name"), "polygon": mapping.pop("points"), **mapping}
+    return mapping
 
 
 def _plain(value):

@@ -1,20 +1,30 @@
 """The ``object`` section: one reader and one geometry per type of object.
 
-A further type adds a line to ``_READERS`` and registers its geometry with the two functions below.
+A further type adds a line to ``_READERS`` and registers with the functions below.
 """
 
+import math
 from functools import singledispatch
 
+from deformable_manipulation.scenario.fabric import (
+    fabric_free_length,
+    fabric_particle_position,
+    read_fabric,
+)
 from deformable_manipulation.scenario.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.rod import (
     read_rod,
     rod_free_length,
     rod_particle_position,
 )
-from deformable_manipulation.scenario.spec import RodSpec, Vector
+from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Vector
 
-_READERS = {"rod": read_rod}
+_READERS = {"rod": read_rod, "fabric": read_fabric}
 _TYPE = Choice(*_READERS)
+
+_ROD_SUBSTEPS = 2  # for the direct solver
+_FABRIC_SUBSTEP = 1e-3  # s; one iteration per substep is all that a fabric's constraints get
+_ROUNDING = 1e-6  # of a substep
 
 
 def read_object(node: Node):
@@ -39,5 +49,23 @@ def free_length(spec, first: int, second: int) -> float:
     raise TypeError("no geometry for objects of {}".format(type(spec).__name__))
 
 
+@singledispatch
+def auto_substeps(spec, time_step: float) -> int:
+    """Substeps per time step [s] that suit the object: ``simulation.substeps: auto``."""
+    raise TypeError("no substeps for objects of {}".format(type(spec).__name__))
+
+
 particle_position.register(RodSpec, rod_particle_position)
+particle_position.register(FabricSpec, fabric_particle_position)
 free_length.register(RodSpec, rod_free_length)
+free_length.register(FabricSpec, fabric_free_length)
+
+
+@auto_substeps.register(RodSpec)
+def _rod_substeps(spec, time_step: float) -> int:
+    return _ROD_SUBSTEPS
+
+
+@auto_substeps.register(FabricSpec)
+def _fabric_substeps(spec, time_step: float) -> int:
+    return math.ceil(time_step / _FABRIC_SUBSTEP - _ROUNDING)

@@ -1,14 +1,16 @@
 """The ``obstacles`` section: one reader per kind of obstacle."""
 
-from typing import Tuple
+from typing import Tuple, Union
 
 from deformable_manipulation.distance.polygons import PolygonError, Ring, check_ring, read_ring
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.files import resolve_file
+from deformable_manipulation.scenario.meshes import MeshFile, Scale
 from deformable_manipulation.scenario.names import ONE_LINE
 from deformable_manipulation.scenario.readers import (
     Array,
     Choice,
+    Custom,
     Node,
     Number,
     Section,
@@ -16,7 +18,9 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.spec import PolygonObstacle
+from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+
+Obstacle = Union[PolygonObstacle, MeshObstacle]
 
 _POINT = Array(2, Number("m"), "[a, b]")
 
@@ -50,14 +54,40 @@ POLYGON_OBSTACLE = Section(
 )
 
 
-def read_obstacles(node: Node) -> Tuple[PolygonObstacle, ...]:
+MESH_OBSTACLE = Section(
+    MeshObstacle,
+    {
+        "name": ONE_LINE,
+        "mesh": MeshFile(),
+        "translation": position(),
+        "rotation": UnitQuaternion(),
+        "scale": Scale(),
+    },
+)
+
+
+def _read_obstacle(node: Node) -> Obstacle:
+    """Which kind it is follows from its keys."""
+    if not isinstance(node.value, dict):
+        node.fail("must be {}".format(OBSTACLE.allowed))
+    is_mesh = "polygon" not in node.value and not {"mesh", "scale"}.isdisjoint(node.value)
+    return MESH_OBSTACLE(node) if is_mesh else POLYGON_OBSTACLE(node)
+
+
+OBSTACLE = Custom(
+    _read_obstacle,
+    "a section with keys name, polygon and plane or mesh and scale, translation, rotation",
+)
+
+
+def read_obstacles(node: Node) -> Tuple[Obstacle, ...]:
     """Read and check the ``obstacles`` section; nothing in it means no obstacles."""
     if node.value is None:
         return ()
     if not isinstance(node.value, (list, tuple)):
-        node.fail("must be a list of obstacles, each {}".format(POLYGON_OBSTACLE.allowed))
+        node.fail("must be a list of obstacles, each {}".format(OBSTACLE.allowed))
     _check_names(node)
-    return read_items(node, POLYGON_OBSTACLE)
+    return read_items(node, OBSTACLE)
 
 
 def _check_names(node: Node) -> None:

@@ -41,12 +41,16 @@ class Report:
 
 @dataclasses.dataclass(frozen=True)
 class Node:
-    """A raw value, the path of its key and where relative file names start."""
+    """A raw value, the path of its key and where relative file names start.
+
+    ``files_are_read``: the files that it names have been read and found right already.
+    """
 
     value: Any
     path: Tuple[str, ...]
     report: Report
     directory: Path
+    files_are_read: bool = False
 
     def child(self, key, value) -> "Node":
         """The node of an item of this one."""

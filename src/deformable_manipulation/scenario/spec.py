@@ -6,7 +6,7 @@ The objects of this module hold checked values: they are made by
 """
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import Optional, Tuple, Union
 
 Vector = Tuple[float, float, float]
 Quaternion = Tuple[float, float, float, float]
@@ -41,11 +41,17 @@ class RodSpec:
     pose: Pose = Pose()
 
     type = "rod"
+    triangles = None  # it is a line
 
     @property
     def particles(self) -> int:
         """Number of particles that can be held (the segments)."""
         return self.segments
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the centre line."""
+        return self.radius
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,11 @@ class FabricSpec:
     def particles(self) -> int:
         """Number of particles that can be held (the vertices)."""
         return len(self.vertices)
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the mid-surface."""
+        return 0.5 * self.thickness
 
 
 @dataclass(frozen=True)
@@ -109,7 +120,7 @@ class MeshObstacle:
     """
 
     name: str
-    mesh: str  # path of a file that Trimesh reads
+    mesh: str  # absolute path of a file that Trimesh reads
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
     scale: Vector = (1.0, 1.0, 1.0)  # m per unit of the file, along the file's axes
@@ -141,13 +152,15 @@ class CollisionSpec:
     speed_margin: float = 0.0  # s, more of it per m/s of the leader's speed
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
+    backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
 
 
 @dataclass(frozen=True)
 class OverstretchSpec:
     """Barrier that keeps two agents from overstretching the object (paper, eq. 8)."""
 
-    max_distance: Optional[float] = None  # m between held points; None: 99 % of the free length
+    max_distance: Optional[float] = None  # m between held points; None: a fraction of their
+    fraction: float = 0.99  # free length
     margin: float = 0.005  # m, by which the rows stay within it
     alpha: Tuple[float, float] = (1.0, 2.0)  # 1/s
 
@@ -190,7 +203,7 @@ class SimulationSpec:
     duration: float  # s
     time_step: float = 0.01  # s; a whole number of them makes one controller cycle
     substeps: int = 2  # per time step
-    solver: str = "direct"  # of the rod's joints: "direct" or "gauss_seidel" (needs many substeps)
+    solver: str = "direct"  # of a rod's joints: "direct" or "gauss_seidel" (needs many substeps)
     gravity: Vector = (0.0, 0.0, -9.81)  # m/s^2
     record_rate: float = 10.0  # Hz, frames in states.npz
 
@@ -200,9 +213,9 @@ class Scenario:
     """A whole run: object, agents, obstacles, leader, controller, simulation."""
 
     name: str
-    object: RodSpec
+    object: Union[RodSpec, FabricSpec]
     agents: Tuple[AgentSpec, ...]  # in the file's order; exactly one leader
-    obstacles: Tuple[PolygonObstacle, ...]
+    obstacles: Tuple[Union[PolygonObstacle, MeshObstacle], ...]
     leader: LeaderSpec
     controller: ControllerSpec
     simulation: SimulationSpec

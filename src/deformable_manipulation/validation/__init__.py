@@ -1,1 +1,1 @@
-"""The simulation of rods held against independent solutions of rod theory."""
+"""The simulation of rods and fabrics held against independent solutions of their theory."""

@@ -7,10 +7,10 @@ from deformable_manipulation.validation.result import CaseResult, Check
 HEADER = "| {} | theory | measured | error | tolerance | pass |\n|---|---|---|---|---|---|"
 INTRODUCTION = """# Validation
 
-The simulated rod against solutions of rod theory that are computed independently, with SciPy
-(`src/deformable_manipulation/validation/references/`): the catenary, the elastica and the Kirchhoff
-rod as boundary value problems, small vibration by Rayleigh-Ritz, large swings by Galerkin's method,
-and the exact equilibrium of rigid segments. Written by
+The simulated rod and fabric against solutions of their theory that are computed independently, with
+SciPy (`src/deformable_manipulation/validation/references/`): the catenary, the elastica and the
+Kirchhoff rod as boundary value problems, small vibration by Rayleigh-Ritz, large swings by
+Galerkin's method, and the exact equilibrium of rigid segments and of meshes. Written by
 
 ```
 scripts/validate

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.scenario.spec import PolygonObstacle
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -36,7 +36,7 @@ def in_plane(points):
 
 def compute(ring, line, radius=0.0, band=0.1, features="local"):
     """Distances of one polyline (P, 2) to one polygon of the xy plane."""
-    calculator = PlanarMinimumDistance([obstacle(ring)], radius, band, features)
+    calculator = MinimumDistance([obstacle(ring)], radius, band, features)
     return calculator.compute(in_plane(line)[None])
 
 

@@ -6,7 +6,7 @@ import pytest
 import shapely
 from planar_reference import HILLS, SQUARE, arc_length, compute, in_plane, obstacle
 
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
 
 def test_one_straight_rod_over_two_equal_hills_has_two_features():
@@ -65,7 +65,7 @@ def test_features_end_at_the_band():
 
 def test_segments_have_a_feature_each():
     line = np.column_stack((np.linspace(-1.5, 1.5, 16), np.full(16, 0.7)))
-    result = compute(HILLS, line, band=0.25, features="segments")
+    result = compute(HILLS, line, band=0.25, features="elements")
     polygon = shapely.Polygon(HILLS)
     expected = {
         s: polygon.distance(shapely.LineString(line[s : s + 2]))
@@ -81,7 +81,7 @@ def test_segments_have_a_feature_each():
 
 def test_segments_inside_and_outside():
     line = np.column_stack((np.linspace(-1.5, 1.5, 31), np.full(31, 0.42)))
-    result = compute(HILLS, line, band=0.3, features="segments")
+    result = compute(HILLS, line, band=0.3, features="elements")
     bounds = [reference.bounds_of_minimum(HILLS, line[s : s + 2]) for s in range(30)]
     for segment, distance in zip(result.vertices[:, 0], result.distance):
         low, high = bounds[segment]
@@ -94,20 +94,20 @@ def test_segments_inside_and_outside():
 
 def test_a_segment_level_with_an_edge_is_represented_by_its_middle():
     line = [(0.1, 1.2), (0.3, 1.2), (0.9, 1.2), (1.5, 1.2)]
-    result = compute(SQUARE, line, features="segments")
+    result = compute(SQUARE, line, features="elements")
     middles = {s: w for s, w in zip(result.vertices[:, 0].tolist(), result.weights[:, 1])}
     assert middles == pytest.approx({0: 0.5, 1: 0.5, 2: 0.05 / 0.6}, abs=1e-9)
 
 
 def test_a_segment_over_two_equal_hills_is_not_represented_by_the_valley():
-    result = compute(HILLS, [(-1.0, 0.8), (1.0, 0.8)], features="segments")
+    result = compute(HILLS, [(-1.0, 0.8), (1.0, 0.8)], features="elements")
     assert result.distance == pytest.approx([0.3], abs=1e-12)
     assert abs(result.object_point[0, 0]) == pytest.approx(0.5, abs=1e-9)
 
 
 @pytest.mark.parametrize("line", [[(-0.5, 1.3), (0.2, 1.2), (1.8, 0.9)],
                                   [(0.3, 0.9), (0.35, 0.75), (0.9, 1.4)]])
-@pytest.mark.parametrize("features", ["local", "segments"])
+@pytest.mark.parametrize("features", ["local", "elements"])
 def test_witness_points(line, features):
     result = compute(SQUARE, line, radius=0.02, band=0.5, features=features)
     boundary = shapely.LinearRing(SQUARE)
@@ -129,7 +129,7 @@ def test_witness_points(line, features):
 @pytest.mark.parametrize("height", [0.7, 0.45])
 def test_normal_is_the_gradient_of_the_material_points_distance(height):
     line = [(-1.4, height + 0.1), (-0.55, height), (0.6, height + 0.03), (1.5, height + 0.3)]
-    result = compute(HILLS, line, band=0.3, features="segments")
+    result = compute(HILLS, line, band=0.3, features="elements")
     step = 1e-7
     for point, normal, distance in zip(result.object_point, result.normal, result.distance):
         for direction in np.eye(3):
@@ -160,7 +160,7 @@ def test_every_obstacle_gives_its_features():
     left = obstacle(SQUARE, translation=(-1.2, 0.0, 0.0), name="left")
     right = obstacle(SQUARE, translation=(0.3, 0.05, 0.0), name="right")
     far = obstacle(SQUARE, translation=(0.0, -5.0, 0.0), name="far")
-    calculator = PlanarMinimumDistance([left, far, right], 0.01, band=0.1)
+    calculator = MinimumDistance([left, far, right], 0.01, band=0.1)
     line = in_plane([(-1.0, 1.2), (1.0, 1.2)])
     shifted = line + (0.0, 0.0, 5.0)
     result = calculator.compute(np.stack((line, shifted + (-1.0, 0.0, 0.0))))
@@ -174,7 +174,7 @@ def test_every_obstacle_gives_its_features():
 
 def test_overlapping_obstacles_count_one_by_one():
     shifted = obstacle(SQUARE, translation=(0.5, 0.0, 0.0), name="shifted")
-    result = PlanarMinimumDistance([obstacle(SQUARE), shifted], 0.0, band=1.0).compute(
+    result = MinimumDistance([obstacle(SQUARE), shifted], 0.0, band=1.0).compute(
         in_plane([(0.2, 0.7), (1.4, 0.7)])[None]
     )
     assert result.distance[:2] == pytest.approx([-0.3, -0.3], abs=1e-12)
@@ -182,7 +182,7 @@ def test_overlapping_obstacles_count_one_by_one():
 
 
 def test_without_obstacles_nothing_is_near():
-    result = PlanarMinimumDistance([], 0.01).compute(np.zeros((2, 3, 3)))
+    result = MinimumDistance([], 0.01).compute(np.zeros((2, 3, 3)))
     assert result.minimum.tolist() == [np.inf, np.inf]
     assert result.offsets.tolist() == [0, 0, 0]
     assert result.normal.shape == (0, 3)

@@ -5,7 +5,7 @@ import pytest
 import shapely
 from planar_reference import obstacle
 
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
 
 def terrain():
@@ -23,14 +23,14 @@ def carried_rope(cycle):
     return rope + np.linspace(0.0, 1.0, 29)[:, None] * displacements[:, None]
 
 
-@pytest.mark.parametrize("features", ["local", "segments"])
+@pytest.mark.parametrize("features", ["local", "elements"])
 def test_every_cycle_is_as_if_it_were_the_first(features):
     settings = [obstacle(terrain(), plane="yz")], 0.0035, 0.1, features
-    calculator = PlanarMinimumDistance(*settings)
+    calculator = MinimumDistance(*settings)
     polygon = shapely.Polygon(terrain())
     for cycle in range(150):
         points = carried_rope(cycle)
-        result, fresh = calculator.compute(points), PlanarMinimumDistance(*settings).compute(points)
+        result, fresh = calculator.compute(points), MinimumDistance(*settings).compute(points)
         assert result.minimum == pytest.approx(fresh.minimum, abs=1e-12)
         assert result.distance == pytest.approx(fresh.distance, abs=1e-9)
         assert (result.vertices == fresh.vertices).all()
@@ -42,6 +42,6 @@ def test_every_cycle_is_as_if_it_were_the_first(features):
 
 
 def test_the_rope_is_outside_in_some_cycles_and_inside_in_others():
-    calculator = PlanarMinimumDistance([obstacle(terrain(), plane="yz")], 0.0035)
+    calculator = MinimumDistance([obstacle(terrain(), plane="yz")], 0.0035)
     minima = [calculator.compute(carried_rope(cycle)).minimum[0] for cycle in range(0, 150, 5)]
     assert min(minima) < -0.02 and max(minima) > 0.3

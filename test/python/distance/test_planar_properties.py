@@ -17,13 +17,13 @@ from planar_reference import (
 )
 from scipy.spatial.transform import Rotation
 
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
 SAMPLES = 2001
 BAND = 0.2137  # m, off the grid of the lines, so that no distance is just at its end
 MANY = settings(max_examples=60, deadline=None)
 seeds = st.integers(0, 2**32 - 1)
-selections = st.sampled_from(["local", "segments"])
+selections = st.sampled_from(["local", "elements"])
 
 
 def random_ring(rng):
@@ -107,7 +107,7 @@ def test_local_features_are_the_sampled_local_minima(seed):
 def test_segments_in_the_band_are_all_there(seed):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), wanderer(rng)
-    result = compute(ring, line, band=BAND, features="segments")
+    result = compute(ring, line, band=BAND, features="elements")
     found = dict(zip(result.vertices[:, 0].tolist(), result.distance))
     assert len(found) == len(result.distance)
     for segment in range(len(line) - 1):
@@ -126,11 +126,11 @@ def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies
     obstacles = [obstacle(random_ring(rng)), shifted]
     points = in_plane(wanderer(rng, copies))
     points += np.append(rng.uniform(-2.0, 2.0, 2), 0.0)
-    calculator = PlanarMinimumDistance(obstacles, 0.01, BAND, features)
+    calculator = MinimumDistance(obstacles, 0.01, BAND, features)
     calculator.compute(3.0 * points[::-1])
     together = calculator.compute(points)
     for copy in range(copies):
-        fresh = PlanarMinimumDistance(obstacles, 0.01, BAND, features)
+        fresh = MinimumDistance(obstacles, 0.01, BAND, features)
         alone = fresh.compute(points[copy : copy + 1])
         assert together.minimum[copy] == pytest.approx(alone.minimum[0], abs=1e-9)
         first = together.of_copy(copy).start
@@ -148,7 +148,7 @@ def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies
 def test_moving_everything_rigidly_changes_no_distance(seed, features, plane):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), in_plane(wanderer(rng))
-    plain = PlanarMinimumDistance([obstacle(ring)], 0.01, BAND, features).compute(line[None])
+    plain = MinimumDistance([obstacle(ring)], 0.01, BAND, features).compute(line[None])
 
     rotation, translation = Rotation.random(random_state=seed), rng.uniform(-3.0, 3.0, 3)
     turned = obstacle(ring, plane, tuple(translation), tuple(rotation.as_quat()))
@@ -157,7 +157,7 @@ def test_moving_everything_rigidly_changes_no_distance(seed, features, plane):
     def moved(points):
         return rotation.apply(points[..., order]) + translation
 
-    result = PlanarMinimumDistance([turned], 0.01, BAND, features).compute(moved(line)[None])
+    result = MinimumDistance([turned], 0.01, BAND, features).compute(moved(line)[None])
     assert result.minimum == pytest.approx(plain.minimum, abs=1e-9)
     assert result.distance == pytest.approx(plain.distance, abs=1e-9)
     first = result.object_point[0] - result.obstacle_point[0]

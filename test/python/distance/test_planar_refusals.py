@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from planar_reference import SQUARE, obstacle
 
-from deformable_manipulation.distance.planar import PlanarMinimumDistance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
 BOW_TIE = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
 
@@ -26,7 +26,7 @@ BOW_TIE = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
 def test_bad_obstacle(changes, reason):
     settings = dict({"ring": SQUARE, "name": "block"}, **changes)
     with pytest.raises(ValueError, match="obstacle 'block'.*" + reason):
-        PlanarMinimumDistance([obstacle(**settings)], 0.01)
+        MinimumDistance([obstacle(**settings)], 0.01)
 
 
 def test_all_mistakes_are_reported_at_once():
@@ -35,9 +35,9 @@ def test_all_mistakes_are_reported_at_once():
         obstacle(SQUARE, name="second", plane="up", translation=(np.nan, 0.0, 0.0)),
     ]
     with pytest.raises(ValueError) as caught:
-        PlanarMinimumDistance(spoilt, -1.0, band=np.nan, features="all")
+        MinimumDistance(spoilt, -1.0, band=np.nan, features="all")
     message = str(caught.value)
-    for part in ("radius is -1.0", "band is nan", "'local', 'segments'", "'first'", "plane is 'up'",
+    for part in ("margin is -1.0", "band is nan", "'local', 'elements'", "'first'", "plane is 'up'",
                  "translation"):
         assert part in message
 
@@ -45,11 +45,11 @@ def test_all_mistakes_are_reported_at_once():
 @pytest.mark.parametrize("shape", [(2, 3), (0, 4, 3), (1, 1, 3), (1, 4, 2)])
 def test_points_of_another_shape(shape):
     with pytest.raises(ValueError, match="shape"):
-        PlanarMinimumDistance([obstacle(SQUARE)], 0.01).compute(np.zeros(shape))
+        MinimumDistance([obstacle(SQUARE)], 0.01).compute(np.zeros(shape))
 
 
 def test_points_that_are_not_finite():
     points = np.zeros((2, 4, 3))
     points[1, 2, 0] = np.nan
     with pytest.raises(ValueError, match="point 2 of copy 1"):
-        PlanarMinimumDistance([obstacle(SQUARE)], 0.01).compute(points)
+        MinimumDistance([obstacle(SQUARE)], 0.01).compute(points)

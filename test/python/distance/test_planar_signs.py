@@ -52,7 +52,7 @@ def test_no_change_of_sign_through_the_boundary_jumps():
     assert np.diff(values) == pytest.approx(np.diff(heights), abs=1e-12)
 
 
-@pytest.mark.parametrize("features", ["local", "segments"])
+@pytest.mark.parametrize("features", ["local", "elements"])
 def test_circle_and_its_centre(features):
     """All edges are about equally far from the centre."""
     angles = np.linspace(0.0, 2.0 * np.pi, 101)[:-1]
@@ -69,7 +69,7 @@ def test_fine_boundary_inside():
     ring = np.vstack((np.column_stack((u, 0.05 * np.sin(7.0 * u))), [(1.0, -2.0), (-1.0, -2.0)]))
     line = np.column_stack((np.linspace(-0.6, 0.6, 15), np.full(15, -0.2)))
     low, high = reference.bounds_of_minimum(ring, line, 501)
-    for features in ("local", "segments"):
+    for features in ("local", "elements"):
         assert low <= compute(ring, line, features=features).minimum[0] <= high + 1e-9
 
 
@@ -100,7 +100,7 @@ def test_outside_agrees_with_shapely():
         [(0.5, 0.5), (0.5, 0.5), (0.5, 0.7), (0.5, 0.7)],
     ],
 )
-@pytest.mark.parametrize("features", ["local", "segments"])
+@pytest.mark.parametrize("features", ["local", "elements"])
 def test_segments_of_length_zero(line, features):
     """A rod along the plane's normal is a point in the plane."""
     result = compute(SQUARE, line, radius=0.01, features=features)

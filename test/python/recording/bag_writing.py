@@ -3,14 +3,18 @@
 from pathlib import Path
 
 import numpy as np
+import yaml
 from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from synthetic_run import RATE, make_decision
+
+from deformable_manipulation.scenario import scenario_to_mapping
 
 MESSAGES = Path(__file__).resolve().parents[3] / "msg"
 PACKAGE = "deformable_manipulation/msg/"
 CONTROLLER_STATE = PACKAGE + "ControllerState"
 DISTANCES = PACKAGE + "Distances"
+OBJECT_STATE = PACKAGE + "ObjectState"
 STAMP_ZERO = 1700000000250000000  # ns, a wall clock's
 VECTORS = {
     "position": "position",
@@ -25,7 +29,7 @@ VECTORS = {
 def make_typestore(**definitions):
     """Types of this package; ``definitions`` replace the text of some messages."""
     typestore = get_typestore(Stores.ROS1_NOETIC)
-    for name in ("ControllerState", "Distances"):
+    for name in ("ControllerState", "Distances", "ObjectState"):
         text = definitions.get(name) or (MESSAGES / f"{name}.msg").read_text()
         typestore.register(get_types_from_msg(text, PACKAGE + name))
     return typestore
@@ -86,6 +90,7 @@ class BagWriter:
                 ("obstacle_points", float),
                 ("normals", float),
                 ("obstacle_velocities", float),
+                ("feature_identities", np.int64),
                 ("feature_vertices", np.uint32),
                 ("feature_weights", float),
             )
@@ -99,6 +104,32 @@ class BagWriter:
         )
         message = self._message(DISTANCES, cycle, reset_count, values)
         self.write(f"{namespace}/distances", DISTANCES, message)
+
+    def object_state(self, cycle, points, agents, namespace="", reset_count=0):
+        """A state of points (P, 3) and of agents, positions by name in the message's order."""
+        values = dict(
+            object_type=0,
+            particle_count=len(points) - 1,
+            point_count=len(points),
+            agents=list(agents),
+            agent_particles=np.zeros(len(agents), np.int32),
+            displaced_agents=np.array([-1], np.int32),
+            copy_ready=np.array([1], np.uint8),
+            agent_positions=np.concatenate(list(agents.values())),
+            points=np.concatenate((points.ravel(), np.full(points.size, 9.0))),  # and of a copy
+        )
+        for name in (
+            "agent_orientations agent_velocities agent_angular_velocities displacements "
+            "orientations velocities sensitivities"
+        ).split():
+            values[name] = np.zeros(0)
+        message = self._message(OBJECT_STATE, cycle, reset_count, values)
+        self.write(f"{namespace}/state", OBJECT_STATE, message)
+
+    def run_info(self, scenario):
+        text = yaml.safe_dump({"scenario": scenario_to_mapping(scenario)}, sort_keys=False)
+        message = self.typestore.types["std_msgs/msg/String"](data=text)
+        self.write("/run_info", "std_msgs/msg/String", message)
 
     def cycle(self, cycle, **keywords):
         """The distances and the state of one controller."""

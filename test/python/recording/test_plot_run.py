@@ -49,7 +49,8 @@ def test_folder_and_bag_of_the_same_run_agree(run_folder, tmp_path):
 
 def test_figures_are_written_beside_the_run_and_named(run_folder, capsys):
     assert main([str(run_folder)]) == 0
-    figures = [run_folder / f"controller_assistant_{number}.png" for number in (1, 2)]
+    names = ("controller_assistant_1", "controller_assistant_2", "overview")
+    figures = [run_folder / f"{name}.png" for name in names]
     assert capsys.readouterr().out.split() == [str(path) for path in figures]
     assert all(path.read_bytes().startswith(b"\x89PNG") for path in figures)
 
@@ -132,7 +133,7 @@ def test_windows_are_shown_on_request_only(run_folder, monkeypatch, capsys):
     assert main([str(run_folder)]) == 0
     assert not pyplot.get_fignums()
     assert main([str(run_folder), "--show"]) == 0
-    assert len(pyplot.get_fignums()) == 2
+    assert len(pyplot.get_fignums()) == 3
     pyplot.close("all")
     assert "no display" in capsys.readouterr().err
 

@@ -11,6 +11,7 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording import CycleTimings, RecordingError, RunRecorder
 from deformable_manipulation.recording import run_recorder as run_recorder_module
 from deformable_manipulation.scenario import scenario_from_mapping
+from deformable_manipulation.scenario.spec import FabricSpec
 
 
 @pytest.fixture
@@ -108,10 +109,11 @@ def test_record_rates_that_do_not_divide_the_rate(tmp_path, record_rate, frames)
 
 
 def test_faces_of_a_fabric_are_kept(scenario, tmp_path):
-    RunRecorder(scenario, tmp_path / "run", faces=np.array([[0, 1, 2], [1, 2, 3]])).finish(1, True)
-    np.testing.assert_array_equal(
-        np.load(tmp_path / "run" / "states.npz")["faces"], [[0, 1, 2], [1, 2, 3]]
-    )
+    corners = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 1.0, 0.0))
+    faces = ((0, 1, 2), (1, 3, 2))
+    fabric = FabricSpec(corners, faces, 1.0, 0.001, 1e-4, 1.0)
+    RunRecorder(dataclasses.replace(scenario, object=fabric), tmp_path / "run").finish(1, True)
+    np.testing.assert_array_equal(np.load(tmp_path / "run" / "states.npz")["faces"], faces)
 
 
 def test_scenario_file_describes_the_same_scenario(scenario, tmp_path):
@@ -170,6 +172,7 @@ def test_summary_numbers(scenario, tmp_path):
         "offset": OFFSET,
         "min_proximity_margin": 0.5,
         "max_stretch": 0.02,
+        "valid_stretch": 0.01,
         "shape_valid": False,
         "qp_relaxed": 2,
         "qp_failed": 1,

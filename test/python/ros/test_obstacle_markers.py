@@ -5,7 +5,8 @@ from visualization_msgs.msg import Marker
 
 from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
-from deformable_manipulation.scenario import load_scenario
+from deformable_manipulation.scenario import load_scenario, package_share_directory
+from deformable_manipulation.scenario.spec import MeshObstacle
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +42,39 @@ def test_what_faces_upwards_is_lit(triangles):
     assert upwards.sum() > 50 and downwards.any()
     assert colors[upwards, 0, :3].min() > 0.6
     assert colors[upwards, 0, :3].min() > colors[downwards, 0, :3].max()
+
+
+TURNED = (0.0, 0.0, 0.6, 0.8)  # about z: cos 0.28, sin 0.96
+CUBE = MeshObstacle(
+    "cube",
+    str(package_share_directory() / "config" / "obstacles" / "cube.obj"),
+    translation=(1.0, 2.0, 3.0),
+    rotation=TURNED,
+    scale=(1.0, 2.0, 3.0),
+)
+
+
+def test_a_small_mesh_is_drawn_where_it_is():
+    (marker,) = obstacle_markers([CUBE], "map").markers
+    assert (marker.type, marker.header.frame_id) == (Marker.TRIANGLE_LIST, "map")
+    corners = np.array([(p.x, p.y, p.z) for p in marker.points]).reshape(-1, 3, 3)
+    assert len(corners) == 12 and len(marker.colors) == 36
+    assert signed_volume(corners - CUBE.translation) == pytest.approx(6.0)
+    # The corner (0.5, 1, 3) of the scaled cube, turned and moved.
+    expected = np.array([0.28 * 0.5 - 0.96 * 1.0, 0.96 * 0.5 + 0.28 * 1.0, 3.0]) + CUBE.translation
+    assert np.abs(corners - expected).max(axis=2).min() < 1e-12
+
+
+def test_a_large_mesh_is_left_to_rviz(monkeypatch):
+    monkeypatch.setattr(
+        "deformable_manipulation.ros.obstacle_markers._MOST_TRIANGLES", 11
+    )
+    (marker,) = obstacle_markers([CUBE], "map").markers
+    assert marker.type == Marker.MESH_RESOURCE and not marker.points
+    assert marker.mesh_resource == "file://" + CUBE.mesh
+    assert (marker.scale.x, marker.scale.y, marker.scale.z) == CUBE.scale
+    assert (marker.pose.position.x, marker.pose.orientation.z) == (1.0, 0.6)
+    assert marker.color.a == 1.0
 
 
 def straight_ropes(heights):

@@ -34,10 +34,41 @@ CORRECT = {
 }
 
 
+FABRIC = dict(
+    CORRECT,
+    object={
+        "type": "fabric",
+        "size": [1.0, 1.0],
+        "resolution": 4,
+        "density": 0.5,
+        "thickness": 0.002,
+        "stretching_compliance": 1e-5,
+        "bending_compliance": 1e4,
+        "pose": {"position": [0.0, 0.0, 1.0]},
+    },
+    agents={
+        "hand": {"particle": 0, "role": "leader", "start": [0.0, 0.0, 1.0]},
+        "helper": {"particle": 4, "role": "assistant", "start": [0.9, 0.0, 1.0]},
+    },
+)
+
+
 @pytest.fixture
 def mapping():
     """A correct scenario as plain values, free to change."""
     return copy.deepcopy(CORRECT)
+
+
+@pytest.fixture
+def fabric_mapping():
+    """A correct scenario of a fabric of 5 x 5 particles as plain values, free to change."""
+    return copy.deepcopy(FABRIC)
+
+
+@pytest.fixture(scope="session")
+def correct_fabric():
+    """The correct scenario of a fabric, not to be changed."""
+    return FABRIC
 
 
 @pytest.fixture(scope="session")

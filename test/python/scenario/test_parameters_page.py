@@ -14,18 +14,21 @@ from deformable_manipulation.scenario.controller import (
     OVERSTRETCH,
     PROXIMITY,
 )
+from deformable_manipulation.scenario.fabric import FABRIC
 from deformable_manipulation.scenario.loader import SCENARIO
-from deformable_manipulation.scenario.obstacles import POLYGON_OBSTACLE
+from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
 from deformable_manipulation.scenario.rod import POSE, ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT
 
 SECTIONS = {
     "Top level": SCENARIO,
-    "object": ROD,
+    "object: rod": ROD,
+    "object: fabric": FABRIC,
     "object.pose": POSE,
     "agents": AGENT,
-    "obstacles": POLYGON_OBSTACLE,
+    "obstacles: polygon": POLYGON_OBSTACLE,
+    "obstacles: mesh": MESH_OBSTACLE,
     "leader": LEADER_PATH,
     "leader.waypoints": WAYPOINT,
     "controller": CONTROLLER,

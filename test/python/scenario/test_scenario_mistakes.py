@@ -10,7 +10,7 @@ WRONG_VALUES = [
     ("name", "a/b", "one line"),
     ("name", "a" * 101, "at most 100 characters"),
     ("frame", "/map", "tf frame"),
-    ("object.type", "fabrik", "one of rod"),
+    ("object.type", "fabrik", "one of rod, fabric; did you mean 'fabric'?"),
     ("object.length", 0, "a number"),
     ("object.length", "long", "a number"),
     ("object.length", True, "true must be a number > 0"),

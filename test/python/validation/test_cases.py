@@ -22,3 +22,14 @@ def test_a_wrong_simulation_misses(name, monkeypatch):
 
     monkeypatch.setattr(_pbd, "Rod", five_percent_too_stiff)
     assert not CASES[name](quick=True).passed
+
+
+def test_a_wrong_fabric_misses(monkeypatch):
+    right = _pbd.Fabric
+
+    def five_percent_too_stiff(**parameters):
+        softer = 0.95 * parameters["stretching_compliance"]
+        return right(**{**parameters, "stretching_compliance": softer})
+
+    monkeypatch.setattr(_pbd, "Fabric", five_percent_too_stiff)
+    assert not CASES["fabrics"](quick=True).passed

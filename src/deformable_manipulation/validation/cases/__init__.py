@@ -5,6 +5,7 @@ from typing import Callable, Dict
 from deformable_manipulation.validation.cases import (
     cantilever,
     convergence,
+    fabrics,
     free,
     hanging,
     holds,
@@ -25,6 +26,7 @@ CASES: Dict[str, Callable[[bool], CaseResult]] = {
     "convergence": convergence.run,
     "motion": motion.run,
     "wrenches": wrenches.run,
+    "fabrics": fabrics.run,
 }
 
 

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deformable_manipulation/distance/obstacle.h"
+
+namespace deformable_manipulation {
+namespace distance {
+
+//! The surface of any number of triangles.
+//!
+//! Vertices at the same place are one. A component, the triangles connected by edges, is a solid if it is closed: each
+//! edge has two triangles, which can be wound alike. Which side is inside depends on its volume, not on how it was
+//! wound; only a component wound as seen from inside that lies within another solid is a cavity of that. A point's
+//! signed distance is its distance to the surface, negative inside a solid. Solids count one by one: where two overlap
+//! the depth is that in one of them, not in their union. A solid that crosses itself has the sign of the piece of its
+//! surface that is nearest. Components that are not closed have distances without a sign, 0 where the object crosses.
+//!
+//! Distances are exact to rounding outside. Depths inside are the greatest to within a thousandth and 1e-7 m, at most
+//! 1e-5 m; the witness found always has the distance told. Normals point from the obstacle to the object, inside from
+//! the object to the nearest point of the surface; within 1e-9 m of the surface they are its outward normal (of a
+//! surface that is not closed, that of the triangle).
+//!
+//! Features:
+//! - Selection::ELEMENTS: the nearest, or deepest, point of each segment or triangle. Where corners of it are as near
+//!   as that, their mean, if it is as near, too.
+//! - Selection::LOCAL: those from which the distance does not fall: no other element at the same place comes nearer.
+class MeshObstacle : public Obstacle {
+ public:
+  //! @param vertices [m] in the obstacle's own frame
+  //! @param triangles indices of vertices, of either orientation
+  //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
+  //! @throw std::invalid_argument, with all reasons: there is no triangle with an area; a vertex is not finite or
+  //!   beyond 1e6 m; a triangle refers to a vertex that does not exist; the pose is none
+  MeshObstacle(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& triangles,
+               const Vector3& translation = Vector3::Zero(),
+               const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
+  ~MeshObstacle() override;
+
+  //! Moves the obstacle.
+  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
+  //! @throw std::invalid_argument, with all reasons
+  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
+
+  //! Sentences about what was dropped or turned, and what has no sign.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  void minima(const ObjectView& object, Feature* nearest) override;
+  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) override;
+
+ private:
+  class Search;
+  std::vector<std::string> warnings_;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace distance
+}  // namespace deformable_manipulation

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "deformable_manipulation/pbd/body.h"
+#include "deformable_manipulation/pbd/fabric_parameters.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! A fabric: springs along the edges of a triangle mesh and bending across them (Bergou et al. 2006), by extended
+//! position-based dynamics (Macklin et al. 2016) with small substeps (Macklin et al. 2019).
+//!
+//! Particles and geometry points are the vertices. Particles have no orientation: CLAMPED and PINNED hold alike, and
+//! poses have the identity.
+class Fabric final : public Body {
+ public:
+  //! The unstretched fabric at rest at its pose, held nowhere.
+  //! @throw ParameterError
+  explicit Fabric(const FabricParameters& parameters);
+  ~Fabric() override;
+
+  const FabricParameters& parameters() const { return parameters_; }
+
+  //! Keys: stretching_compliance [m/N], bending_compliance [1/(N m)], damping [1/s].
+  void setMaterial(const std::vector<MaterialParameter>& parameters) override;
+
+  std::unique_ptr<Body> clone() const override;
+  int particleCount() const override { return static_cast<int>(parameters_.vertices.size()); }
+  int pointCount() const override { return particleCount(); }
+
+  //! [m] Distance along the unstretched surface: exact where it is flat and convex, elsewhere the length of a path
+  //! on the surface that is nearly the shortest, so never too short.
+  double freeLength(int particle, int other) const override;
+  double mass() const override;
+
+  //! Mean elongation of the edges, weighted with the area of their triangles.
+  double stretch() const override;
+  Wrench wrench(int particle) const override;
+  void layOut() override;
+  void points(double* to) const override;
+  Pose pose(int particle) const override;
+  void positions(int copy, double* to) const override;
+  void velocities(int copy, double* to) const override;
+  bool orientations(int copy, double* to) const override;
+
+ protected:
+  void holdsChanged() override;
+  void resizeCopies() override;
+  void assignCopy(int to, int from) override;
+  void beginStep(double h) override;
+  void substep() override;
+  void endStep() override;
+  int firstNonFinite(int copy) const override;
+  double highestSpeed() const override;
+  void stop() override;
+
+ private:
+  struct State;
+  Fabric(const Fabric& other);
+
+  void resizeHeld();
+  void updateCarriedMotion();
+
+  FabricParameters parameters_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,150 @@
+"""The subject ``distance``: minimum distances of all copies, beside other libraries."""
+
+import itertools
+import os
+import time
+from pathlib import Path
+from typing import Callable, List
+
+import numpy as np
+
+from deformable_manipulation import _distance
+from deformable_manipulation.benchmarks.distance_cases import ball, fabric, hill, rope
+from deformable_manipulation.benchmarks.distance_rivals import (
+    FclMesh,
+    ShapelyPolygon,
+    TrimeshVertices,
+)
+from deformable_manipulation.benchmarks.harness import QUICK, measure
+from deformable_manipulation.benchmarks.subject import Request
+from deformable_manipulation.benchmarks.table import Column, Table
+
+COPIES = 13
+FACES = (12, 10_000, 100_000, 1_000_000)
+QUICK_FACES = (12, 10_000)
+HEIGHTS = {"outside": 1.3, "crossing": 0.8}  # m, of the fabric over the obstacle's middle
+CELLS = (7, 14, 28, 56)
+NUMBERS_OF_COPIES = (1, 4, 13, 28)
+SLOW = 1.0  # s, of a call: longer ones are measured a few times only
+
+TIMES = (
+    Column("median_us", "median [µs]", ".1f"),
+    Column("minimum_us", "minimum [µs]", ".1f"),
+)
+PLANAR_COLUMNS = (Column("what", "what is called"),) + TIMES + (
+    Column("distance", "lowest distance [m]", ".6f"),
+)
+MESH_COLUMNS = (Column("faces", "faces", "d"), Column("case", "fabric")) + PLANAR_COLUMNS
+BUILD_COLUMNS = (
+    Column("faces", "faces", "d"),
+    Column("build_ms", "built in [ms]", ".1f"),
+    Column("memory_mb", "memory [MB]", ".0f"),
+)
+GROWTH_COLUMNS = (
+    Column("faces", "faces", "d"),
+    Column("particles", "particles", "d"),
+    Column("copies", "copies", "d"),
+) + TIMES
+NOTES = (
+    "a call: all copies at one time, with witness points; the object moves 1 mm from call to call",
+    "minimum: one feature of each copy; features: and all of copy 0 up to 0.1 m farther",
+    "this package's distances are signed, those of the libraries are not: 0 where the object "
+    "crosses the obstacle, and within it the distance to its surface or 0",
+)
+
+
+def measure_tables(request: Request) -> List[Table]:
+    """Time this package and the libraries on the same objects and obstacles."""
+    return [_planar(request), *_meshes(request), _growth(request)]
+
+
+def _planar(request: Request) -> Table:
+    title = f"Polyline of 45 points, polygon of 86 corners, {COPIES} copies, one thread"
+    table = Table("planar", title, PLANAR_COLUMNS, notes=list(NOTES))
+    body = rope(COPIES)
+    obstacle = _distance.PlanarObstacle(hill(), "yz")
+    candidates = _own(obstacle, None) + [(ShapelyPolygon.name, ShapelyPolygon(hill()))]
+    for name, call in candidates:
+        request.say(f"polygon, {name}")
+        table.rows.append({"what": name, **_timed(call, body, request)})
+    return table
+
+
+def _meshes(request: Request) -> List[Table]:
+    title = f"Fabric of 225 particles and 392 triangles, {COPIES} copies, one thread"
+    times = Table("meshes", title, MESH_COLUMNS, notes=list(NOTES))
+    memory_note = "memory: of this process, more than before"
+    builds = Table("build", "Making a mesh an obstacle", BUILD_COLUMNS, notes=[memory_note])
+    for faces in QUICK_FACES if request.quick else FACES:
+        mesh = ball(faces)
+        faces = len(mesh[1])
+        request.say(f"{faces} faces, build")
+        obstacle, row = _built(mesh)
+        builds.rows.append({"faces": faces, **row})
+        for case, height in HEIGHTS.items():
+            body = fabric(COPIES, height=height)
+            candidates = _own(obstacle, body.triangles) + [
+                (FclMesh.name, FclMesh(*mesh, body.triangles)),
+                (TrimeshVertices.name, TrimeshVertices(*mesh)),
+            ]
+            for name, call in candidates:
+                request.say(f"{faces} faces, {case}, {name}")
+                labels = {"faces": faces, "case": case, "what": name}
+                times.rows.append({**labels, **_timed(call, body, request)})
+    return [times, builds]
+
+
+def _growth(request: Request) -> Table:
+    table = Table("growth", "Minimum alone, fabric outside a mesh", GROWTH_COLUMNS)
+    faces = QUICK_FACES[-1] if request.quick else FACES[2]
+    mesh = ball(faces)
+    obstacle = _distance.MeshObstacle(*mesh)
+    sizes = [(cells, COPIES) for cells in CELLS]
+    sizes += [(CELLS[1], copies) for copies in NUMBERS_OF_COPIES if copies != COPIES]
+    for cells, copies in sizes:
+        body = fabric(copies, cells)
+        particles = body.states.shape[2]
+        request.say(f"{particles} particles, {copies} copies")
+        labels = {"faces": len(mesh[1]), "particles": particles, "copies": copies}
+        call = _own(obstacle, body.triangles)[0][1]
+        table.rows.append({**labels, **_timed(call, body, request)})
+    return table
+
+
+def _own(obstacle, triangles) -> list:
+    """This package's computations, by name. Without a band copy 0 has hardly any other feature."""
+    found = []
+    for name, band in (("minimum", 0.0), ("features", 0.1)):
+        calculator = _distance.MinimumDistance([obstacle], 0.0, band, "elements")
+
+        def call(points, calculator=calculator):
+            return calculator.compute(points, triangles)[0]
+
+        found.append((f"deformable_manipulation, {name}", call))
+    return found
+
+
+def _timed(call: Callable, body, request: Request) -> dict:
+    lowest = float(np.min(call(body.states[0])))
+    started = time.perf_counter()
+    call(body.states[1])
+    slow = time.perf_counter() - started > SLOW
+    following = itertools.cycle(body.states)
+    timing = measure(lambda _: call(next(following)), effort=QUICK if slow else request.effort)
+    return {
+        "median_us": 1e6 * timing.median,
+        "minimum_us": 1e6 * timing.minimum,
+        "distance": lowest,
+    }
+
+
+def _built(mesh):
+    before, started = _resident(), time.perf_counter()
+    obstacle = _distance.MeshObstacle(*mesh)
+    elapsed = time.perf_counter() - started
+    return obstacle, {"build_ms": 1e3 * elapsed, "memory_mb": 1e-6 * (_resident() - before)}
+
+
+def _resident() -> int:
+    """Memory of this process [bytes]."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -1,0 +1,168 @@
+"""Minimum distances between all copies of an object and obstacles."""
+
+import math
+
+import numpy as np
+
+from deformable_manipulation import _distance
+from deformable_manipulation.distance.features import Distances
+from deformable_manipulation.distance.mesh_files import scaled_mesh
+from deformable_manipulation.distance.planes import PLANE_AXES
+from deformable_manipulation.distance.polygons import check_ring
+from deformable_manipulation.scenario.spec import MeshObstacle
+
+SELECTIONS = ("local", "elements")
+_UNIT_TOLERANCE = 1e-6
+
+
+class MinimumDistance:
+    """Signed distances of a polyline or a surface with a margin to polygons and meshes.
+
+    The distance of an object is the least signed distance of all its points, those within segments
+    and triangles included, minus the margin. A point's signed distance to an obstacle is its
+    distance to the boundary, negative inside. Polygons are endless along a normal; a mesh has an
+    inside where it is closed (docs/mathematics.md). Obstacles count one by one: where two overlap,
+    the depth is that in one of them, not in their union.
+
+    Features of copy 0, the object itself, up to ``band`` farther than its minimum, of every
+    obstacle:
+
+    - ``features="elements"``: the nearest point of each segment or triangle. Rows of a barrier for
+      each of them do not jump when the object turns along an edge.
+    - ``features="local"``: the local minima of the signed distance over the object. A stretch level
+      with a polygon's edge counts once, by its middle.
+
+    Every other copy has one feature, its minimum. Within a segment the nearest points' weights are
+    those of its two ends. A normal points from the obstacle to the object, inside from the object
+    to the nearest point of the boundary; on the boundary it is the outward normal.
+
+    But for the features' identities the result depends on the points alone, not on calls before.
+    One instance must not be used by several threads at a time: it remembers what was nearest.
+
+    Args:
+        obstacles: sequence of scenario.spec.PolygonObstacle and MeshObstacle.
+        margin: radius or half thickness of the object, subtracted from all distances [m], >= 0.
+        band: [m], >= 0.
+        features: "local" or "elements".
+        triangles: (T, 3) indices of the object's points, T >= 1; None: a polyline through them.
+
+    Raises ValueError, with all mistakes at once.
+    """
+
+    def __init__(self, obstacles, margin, band=0.1, features="elements", triangles=None):
+        problems = setting_problems(obstacles, margin, band, features, triangles)
+        native = []
+        for spec in obstacles:
+            if not pose_problems(spec):
+                try:
+                    native.append(_native_obstacle(spec))
+                except ValueError as error:
+                    problems += named(spec, str(error).splitlines())
+        if problems:
+            raise ValueError("\n".join(problems))
+        self._native = _distance.MinimumDistance(native, margin, band, features)
+        self._triangles = None if triangles is None else np.ascontiguousarray(triangles)
+        self.names = tuple(spec.name for spec in obstacles)
+        #: Sentences about what was mended or ignored in the meshes.
+        self.warnings = tuple(
+            "obstacle {!r}: {}".format(spec.name, warning)
+            for spec, obstacle in zip(obstacles, native)
+            for warning in getattr(obstacle, "warnings", ())
+        )
+
+    def compute(self, points):
+        """Distances of C copies of the object.
+
+        Args:
+            points: (C, P, 3) of the fixed frame [m], P >= 2.
+
+        Returns:
+            features.Distances.
+
+        Raises ValueError where the shape is another, a point is not finite, or a triangle refers
+        to a point that there is not.
+        """
+        points = checked_points(points)
+        return Distances(*self._native.compute(points, self._triangles), self.names)
+
+
+def checked_points(points):
+    """The points as an array of numbers. Raises ValueError where the shape is another."""
+    points = np.asarray(points, dtype=float)
+    if points.ndim != 3 or points.shape[0] < 1 or points.shape[1] < 2 or points.shape[2] != 3:
+        raise ValueError(
+            "points have the shape {}; it must be (copies >= 1, points >= 2, 3)".format(
+                points.shape
+            )
+        )
+    return points
+
+
+def setting_problems(obstacles, margin, band, features, triangles):
+    """What is wrong with the arguments of a MinimumDistance, but for the obstacles' shapes."""
+    problems = [
+        "{} is {!r}; it must be a finite number of metres, 0 or more".format(key, value)
+        for key, value in (("margin", margin), ("band", band))
+        if not (_is_number(value) and value >= 0.0)
+    ]
+    if features not in SELECTIONS:
+        problems.append("features is {!r}; allowed are {}".format(features, _quoted(SELECTIONS)))
+    if triangles is not None:
+        given = np.asarray(triangles)
+        if given.dtype.kind not in "iu" or given.ndim != 2 or not len(given) or given.shape[1] != 3:
+            problems.append(
+                "triangles must be whole numbers of the shape (triangles >= 1, 3), or None for a "
+                "polyline"
+            )
+    for spec in obstacles:
+        problems += named(spec, pose_problems(spec))
+    return problems
+
+
+def named(spec, faults):
+    """Faults of an obstacle, with its name."""
+    return ["obstacle {!r}: {}".format(spec.name, fault) for fault in faults]
+
+
+def pose_problems(spec):
+    """What is wrong with plane, scale, translation and rotation of an obstacle."""
+    problems = []
+    if isinstance(spec, MeshObstacle):
+        if not _are_numbers(spec.scale, 3) or not all(spec.scale):
+            problems.append(
+                "scale is {}; it must be three finite numbers other than 0".format(spec.scale)
+            )
+    elif spec.plane not in PLANE_AXES:
+        problems.append("plane is {!r}; allowed are {}".format(spec.plane, _quoted(PLANE_AXES)))
+    if not _are_numbers(spec.translation, 3):
+        problems.append(
+            "translation is {}; it must be three finite numbers of metres".format(spec.translation)
+        )
+    if (
+        not _are_numbers(spec.rotation, 4)
+        or abs(math.sqrt(sum(q * q for q in spec.rotation)) - 1.0) > _UNIT_TOLERANCE
+    ):
+        problems.append(
+            "rotation is {}; it must be a quaternion x, y, z, w of length 1".format(spec.rotation)
+        )
+    return problems
+
+
+def _native_obstacle(spec):
+    """The C++ core's obstacle. Raises ValueError where the shape is none."""
+    if isinstance(spec, MeshObstacle):
+        return _distance.MeshObstacle(*scaled_mesh(spec), spec.translation, spec.rotation)
+    ring = check_ring(spec.points)
+    return _distance.PlanarObstacle(ring, spec.plane, spec.translation, spec.rotation)
+
+
+def _are_numbers(values, count):
+    return len(values) == count and all(map(_is_number, values))
+
+
+def _is_number(value):
+    return isinstance(value, (int, float, np.number)) and math.isfinite(value)
+
+
+def _quoted(names):
+    return ", ".join("'{}'".format(name) for name in names)

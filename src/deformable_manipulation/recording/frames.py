@@ -1,0 +1,60 @@
+"""Where the object and the agents of a recorded run were, now and then."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional
+
+import numpy as np
+
+from deformable_manipulation.recording import run_files
+from deformable_manipulation.recording.run_data import RunData, RunDataError
+from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.scenario.spec import Scenario
+
+
+@dataclass(frozen=True)
+class Frames:
+    """F frames of a run: A agents, P geometry points of the object itself."""
+
+    scenario: Scenario
+    times: np.ndarray  # (F,) s, increasing
+    points: np.ndarray  # (F, P, 3) m
+    agents: np.ndarray  # (F, A, 3) m, held points, in the scenario's order
+    faces: Optional[np.ndarray] = None  # (T, 3) triangles of a fabric; None: a rod's polyline
+
+    def at(self, time: float) -> int:
+        """Index of the frame nearest to a time [s]."""
+        return int(np.argmin(np.abs(self.times - time)))
+
+
+def read_frames(run: RunData) -> Frames:
+    """The frames of a run that was read by :func:`~.run_data.read_run`.
+
+    Raises RunDataError: there are none, or they cannot be read.
+    """
+    if run.path.is_dir():
+        return _read_folder(run.path)
+    # Imported late: needs the bag's library.
+    from deformable_manipulation.recording.bag_frames import read_bag_frames
+
+    return read_bag_frames(run.path)
+
+
+def _read_folder(folder: Path) -> Frames:
+    path = folder / run_files.STATES
+    if not os.path.exists(str(path)):
+        raise RunDataError(f"{folder} holds no {run_files.STATES}: there are no shapes to draw")
+    try:
+        with np.load(str(path)) as states:
+            arrays = {name: states[name] for name in states.files}
+        times, points, agents = (arrays[name] for name in ("times", "points", "agents"))
+    except (OSError, ValueError, KeyError, EOFError) as error:
+        raise RunDataError(f"{path} cannot be read: {error}") from error
+    if not len(times):
+        raise RunDataError(f"{path} holds no frame")
+    try:
+        scenario = load_scenario(folder / run_files.SCENARIO)
+    except ScenarioError as error:
+        raise RunDataError(str(error)) from error
+    return Frames(scenario, times, points, agents, arrays.get("faces"))

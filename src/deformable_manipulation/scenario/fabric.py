@@ -1,0 +1,132 @@
+"""The ``object`` section of a fabric, and where its particles are before it is deformed."""
+
+from functools import lru_cache
+from typing import Any, Dict, Tuple
+
+from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
+from deformable_manipulation.scenario.meshes import InlineMesh, Mesh, Scale, scaled
+from deformable_manipulation.scenario.readers import (
+    Array,
+    Node,
+    Number,
+    Section,
+    Unreadable,
+)
+from deformable_manipulation.scenario.rod import POSE
+from deformable_manipulation.scenario.rotation import rotate
+from deformable_manipulation.scenario.spec import FabricSpec, SimulationSpec, Vector
+
+FABRIC = Section(
+    FabricSpec,
+    {
+        "size": Array(2, Number("m", above=0.0, at_most=1e3), "[along x, along y]"),
+        "resolution": Number("1/m", above=0.0, at_most=1e6),
+        "mesh": InlineMesh(),
+        "scale": Scale(),
+        "density": Number("kg/m^2", above=0.0),
+        "thickness": Number("m", above=0.0),
+        "stretching_compliance": Number("m/N", at_least=0.0),
+        "bending_compliance": Number("1/(N m)", at_least=0.0),
+        "damping": Number("1/s", at_least=0.0),
+        "pose": POSE,
+    },
+    defaults={"size": None, "resolution": None, "mesh": None, "scale": (1.0, 1.0, 1.0)},
+    others=("type",),
+)
+_SHAPE = ("size", "resolution", "mesh", "scale")
+
+
+def read_fabric(node: Node) -> FabricSpec:
+    """Read and check the ``object`` section of a fabric."""
+    parts = FABRIC.read_parts(node)
+    mesh = _read_mesh(node, parts)
+    if len(parts) < len(FABRIC.fields):
+        raise Unreadable
+    material = {key: value for key, value in parts.items() if key not in _SHAPE}
+    fabric = FabricSpec(vertices=mesh.vertices, triangles=mesh.triangles, **material)
+    _check_body(node, fabric)
+    return fabric
+
+
+def _read_mesh(node: Node, parts: Dict[str, Any]) -> Mesh:
+    """The mesh from either size and resolution or mesh, and scale."""
+    given = [key for key in _SHAPE if key in node.value]
+    _check_combination(node, given)
+    if not all(key in parts for key in _SHAPE):
+        raise Unreadable
+    if "mesh" in given:
+        return _checked_count(node, scaled(parts["mesh"], parts["scale"]))
+    if "size" in given and "resolution" in given:
+        return read_grid(node, parts["size"], parts["resolution"])
+    raise Unreadable
+
+
+def _check_combination(node: Node, given) -> None:
+    """Report keys of the shape that do not go together."""
+    for key in ("size", "resolution"):
+        if "mesh" in given and key in given:
+            _report(node, key, "does not go with mesh; remove one of them")
+        elif "mesh" not in given and key not in given:
+            _report(node, key, "is missing; give size and resolution, or mesh instead")
+    if "scale" in given and not isinstance(node.value.get("mesh"), str):
+        _report(node, "scale", "is of a mesh file; remove it")
+
+
+def _checked_count(node: Node, mesh: Mesh) -> Mesh:
+    if len(mesh.vertices) > LARGEST_PARTICLE_COUNT:
+        _report(
+            node,
+            "mesh",
+            "has {} vertices; at most {} are allowed".format(
+                len(mesh.vertices), LARGEST_PARTICLE_COUNT
+            ),
+        )
+        raise Unreadable
+    return mesh
+
+
+def _report(node: Node, key: str, message: str) -> None:
+    value = node.value.get(key)
+    node.report.add(node.path + (key,), message, "" if value is None else show(value))
+
+
+def _check_body(node: Node, fabric: FabricSpec) -> None:
+    """Report what the simulation refuses, which knows best what it can simulate."""
+    from deformable_manipulation import _pbd
+
+    try:
+        _body(fabric)
+    except _pbd.ParameterError as error:
+        for key, value, allowed in error.problems:
+            node.report.add(node.path + _key_path(node, key), "must be {}".format(allowed), value)
+        raise Unreadable from None
+
+
+def _key_path(node: Node, key: str) -> Tuple[str, ...]:
+    """Where below ``object`` a parameter of the simulation comes from."""
+    if key in node.value:
+        return (key,)
+    mesh = node.value.get("mesh")
+    if mesh is None:
+        return ("size",)
+    return ("mesh", key) if isinstance(mesh, dict) and key in mesh else ("mesh",)
+
+
+@lru_cache(maxsize=4)
+def _body(fabric: FabricSpec):
+    # Imported late: loads the compiled simulation, which scenarios of rods do not need.
+    from deformable_manipulation.simulation import make_body
+
+    return make_body(fabric, SimulationSpec(duration=1.0))
+
+
+def fabric_particle_position(fabric: FabricSpec, particle: int) -> Vector:
+    """A vertex of the undeformed fabric [m], in the fixed frame."""
+    offset = rotate(fabric.pose.orientation, fabric.vertices[particle])
+    return tuple(p + o for p, o in zip(fabric.pose.position, offset))
+
+
+def fabric_free_length(fabric: FabricSpec, first: int, second: int) -> float:
+    """Greatest distance [m] between two vertices that does not stretch the fabric."""
+    return _body(fabric).free_length(first, second)

@@ -1,0 +1,173 @@
+#include "deformable_manipulation/distance/mesh_obstacle.h"
+
+#include "mesh_cleaning.h"
+#include "mesh_local_minima.h"
+#include "mesh_search.h"
+#include "pose_checks.h"
+
+namespace deformable_manipulation {
+namespace distance {
+namespace {
+
+constexpr double kOnSurface = 1e-9;  // m, distance below which the direction to the surface is rounding
+
+//! Moves the middle of all parts to the origin, where single precision is finest.
+Vector3 centre(std::vector<MeshPart>* parts) {
+  Box box;
+  for (const MeshPart& part : *parts) {
+    for (const Vector3& vertex : part.vertices) {
+      box.include(vertex);
+    }
+  }
+  const Vector3 middle = box.middle();
+  for (MeshPart& part : *parts) {
+    for (Vector3& vertex : part.vertices) {
+      vertex -= middle;
+    }
+  }
+  return middle;
+}
+
+}  // namespace
+
+//! The parts of a mesh, the object in their frame, and what was nearest last.
+class MeshObstacle::Search {
+ public:
+  explicit Search(std::vector<MeshPart> parts) : middle_(centre(&parts)) {
+    for (const MeshPart& part : parts) {
+      parts_.push_back({std::make_unique<MeshSearch>(part), {}});
+    }
+  }
+
+  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
+    rotation_ = rotation.normalized().toRotationMatrix();
+    translation_ = translation;
+    velocity_ = velocity;
+  }
+
+  void minima(const ObjectView& object, Feature* nearest) {
+    for (Part& part : parts_) {
+      part.last.resize(object.copies);
+    }
+    object_.setElements(object);
+    for (int copy = 0; copy < object.copies; ++copy) {
+      bring(object, copy);
+      MeshPlace least;
+      const Part* nearest_part = nullptr;
+      for (Part& part : parts_) {
+        const MeshPlace found = part.search->minimum(object_, least.distance, guess(part, copy));
+        if (found.known()) {
+          part.last[copy] = found;
+        }
+        if (found.distance < least.distance) {
+          least = found;
+          nearest_part = &part;
+        }
+      }
+      nearest[copy] = featureAt(object, copy, *nearest_part->search, least);
+    }
+  }
+
+  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
+    object_.setElements(object);
+    bring(object, 0);
+    for (Part& part : parts_) {
+      part.last.resize(object.copies);
+      part.search->elements(object_, limit, guess(part, 0), &places_);
+      if (selection == Selection::LOCAL) {
+        keepLocalMinima(object_, &places_);
+      }
+      for (const MeshPlace& place : places_) {
+        if (place.known()) {
+          found->push_back(featureAt(object, 0, *part.search, place));
+        }
+      }
+    }
+  }
+
+ private:
+  struct Part {
+    std::unique_ptr<MeshSearch> search;
+    std::vector<MeshPlace> last;  // of each copy, the nearest
+  };
+
+  //! What was nearest to this copy, or else to the one before.
+  MeshPlace guess(const Part& part, int copy) const {
+    for (int c = copy; c >= std::max(copy - 1, 0); --c) {
+      if (part.last[c].element < object_.size()) {
+        if (part.last[c].known()) {
+          return part.last[c];
+        }
+      }
+    }
+    return {};
+  }
+
+  //! Takes a copy into the frame of the parts.
+  void bring(const ObjectView& object, int copy) {
+    points_.resize(object.point_count);
+    for (int i = 0; i < object.point_count; ++i) {
+      points_[i] = toLocal(object.point(copy, i));
+    }
+    object_.refit(points_);
+  }
+
+  Vector3 toLocal(const Vector3& point) const { return rotation_.transpose() * (point - translation_) - middle_; }
+
+  Feature featureAt(const ObjectView& object, int copy, const MeshSearch& search, const MeshPlace& place) const {
+    Feature feature;
+    feature.vertices = place.vertices;
+    feature.weights = place.weights;
+    for (int k = 0; k < 3; ++k) {
+      feature.object_point += place.weights[k] * object.point(copy, place.vertices[k]);
+    }
+    const Vector3 local = toLocal(feature.object_point);
+    const SurfacePoint nearest = search.surface().nearest(local, place.triangle);
+    const Vector3 arm = rotation_ * (local - search.surface().position(nearest));
+    feature.distance = nearest.distance;
+    feature.obstacle_point = feature.object_point - arm;
+    feature.normal = std::fabs(nearest.distance) > kOnSurface
+                         ? Vector3(arm / nearest.distance)
+                         : Vector3(rotation_ * search.surface().pseudonormal(nearest).normalized());
+    feature.obstacle_velocity = velocity_.linear + velocity_.angular.cross(feature.obstacle_point - translation_);
+    return feature;
+  }
+
+  Vector3 middle_;  // m, of the parts' frame in the obstacle's
+  std::vector<Part> parts_;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  Vector3 translation_ = Vector3::Zero();
+  pbd::Twist velocity_;
+  ObjectTree object_;
+  std::vector<Vector3> points_;  // m, of one copy
+  std::vector<MeshPlace> places_;
+};
+
+MeshObstacle::MeshObstacle(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& triangles,
+                           const Vector3& translation, const pbd::Quaternion& rotation) {
+  std::vector<std::string> problems;
+  std::vector<MeshPart> parts = cleanMesh(vertices, triangles, &problems, &warnings_);
+  checkPose(translation, rotation, &problems);
+  throwIfAny(problems);
+  search_ = std::make_unique<Search>(std::move(parts));
+  setPose(translation, rotation);
+}
+
+MeshObstacle::~MeshObstacle() = default;
+
+void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
+  std::vector<std::string> problems;
+  checkPose(translation, rotation, &problems);
+  checkTwist(velocity, &problems);
+  throwIfAny(problems);
+  search_->setPose(translation, rotation, velocity);
+}
+
+void MeshObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
+
+void MeshObstacle::features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
+  search_->features(object, selection, limit, found);
+}
+
+}  // namespace distance
+}  // namespace deformable_manipulation

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <vector>
+
+#include "element_depth.h"
+#include "element_distance.h"
+#include "mesh_surface.h"
+#include "object_tree.h"
+#include "search_stack.h"
+
+namespace deformable_manipulation {
+namespace distance {
+
+//! A material point of the object with its signed distance to a surface.
+struct MeshPlace {
+  double distance = INFINITY;  //!< [m] signed
+  int triangle = -1;           //!< of the surface, near there
+  int element = -1;            //!< of the object
+  Triangle vertices = {0, 0, 0};
+  Weights weights = {0.0, 0.0, 0.0};
+
+  bool known() const { return element >= 0; }
+};
+
+//! Searches the points of an object that are nearest to, or deepest in, one surface.
+//!
+//! Outside, the trees of both are descended together. An object is inside if it crosses the surface, or if one of its
+//! pieces does not but has a point inside; then its deepest point is searched, triangle by triangle (ElementDepth).
+class MeshSearch {
+ public:
+  explicit MeshSearch(const MeshPart& part) : surface_(part), depth_(surface_) {}
+
+  const MeshSurface& surface() const { return surface_; }
+
+  //! The point with the least signed distance.
+  //! @param object refitted
+  //! @param bound [m] if the least is above it, the result is not known()
+  //! @param guess a place that was the nearest before, or unknown; for speed only
+  MeshPlace minimum(const ObjectTree& object, double bound, const MeshPlace& guess);
+
+  //! The point of each element with its least signed distance, where that is at most `limit` [m].
+  //! @param guess a place that was the nearest before, or unknown; for speed only
+  //! @param places [elements] of the object, not known() elsewhere
+  void elements(const ObjectTree& object, double limit, const MeshPlace& guess, std::vector<MeshPlace>* places);
+
+ private:
+  struct Pair {
+    int object, surface;  // nodes, or leaves as ~index
+  };
+  struct Nearest {
+    int element = -1, triangle = -1;
+    ElementNearest at{INFINITY};
+  };
+  struct Candidate {
+    double depth;
+    int child;
+  };
+
+  void start(const ObjectTree& object);
+  const SurfacePoint& cornerSample(int point, int hint);
+  MeshPlace placeAt(int element, const Weights& weights, double distance, int triangle) const;
+
+  Nearest nearestPair(int object_root, double squared_bound);
+  template <int K>
+  void search(int object_root, Nearest* nearest);
+  template <int K>
+  void expand(const Pair& pair, double limit);
+  void expandSurface(const Pair& pair, const FourFloats& bounds, double limit);
+  template <int K>
+  FourFloats boundsOf(int element, int node, double limit) const;
+
+  bool pieceInside(int certified_piece);
+  MeshPlace deepest(double known_depth);
+  void descend(int child, MeshPlace* best);
+  double depthBound(int child, const Box& box, MeshPlace* best);
+  MeshPlace placeOfPoint(int point, const SurfacePoint& there) const;
+  MeshPlace deepestOf(int element, double threshold);
+  Nearest nearestOfElement(int element, double bound);
+  MeshPlace outsidePlace(int element, double limit);
+  MeshPlace elementPlace(int element, double limit);
+  double lowestPossible(int element, double* least);
+  MeshPlace middleOfLevel(const MeshPlace& place);
+
+  MeshSurface surface_;
+  ElementDepth depth_;
+  const ObjectTree* object_ = nullptr;
+  SearchStack<Pair> stack_;
+  std::vector<SurfacePoint> samples_;  // of the object's points
+  std::vector<int> sampled_;           // in which round
+  int round_ = 0;
+  std::vector<int> last_triangles_;  // that was the nearest to each element; a guess only
+};
+
+}  // namespace distance
+}  // namespace deformable_manipulation

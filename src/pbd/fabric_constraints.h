@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/pbd/types.h"
+#include "fabric_kernel.h"
+#include "fabric_mesh.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! The constraints of a fabric as the kernel solves them, and the forces that they come to.
+class FabricConstraints {
+ public:
+  FabricConstraints(const std::vector<Vector3>& vertices, const std::vector<MeshEdge>& edges);
+
+  //! Sets the gains for substeps of h [s]; nothing is allocated.
+  //! @param inverse_mass  [vertices] 1/kg, zero where held
+  void update(const std::vector<double>& inverse_mass, double stretching_compliance, double bending_compliance,
+              double h);
+
+  const std::vector<HingeConstraint>& hinges() const { return hinges_; }
+  const std::vector<BoundaryConstraint>& boundaries() const { return boundaries_; }
+
+  //! Fills in the unstretched lengths of the edges, [edges x lane].
+  void restLengths(AlignedArray& to) const;
+
+  //! Numbers that the kernel records.
+  std::size_t recordedSize() const {
+    return kRecordedOfHinge * hinges_.size() + kRecordedOfBoundary * boundaries_.size();
+  }
+
+  //! [N] What all constraints exert on a vertex of the copy in lane 0, in the substep that was recorded.
+  Vector3 force(int vertex, const double* recorded) const;
+
+ private:
+  //! What does not change with material, holds and time step.
+  struct Rest {
+    double length_share;  // compliance of the edge as a part of the fabric's stretching compliance
+    double fold_area;     // m^2, compliance of the fold as a part of the fabric's bending compliance
+  };
+
+  std::vector<HingeConstraint> hinges_;
+  std::vector<BoundaryConstraint> boundaries_;
+  std::vector<Rest> rest_;                    // of the hinges, then the boundary edges
+  std::vector<double> spring_, fold_spring_;  // N/m, force by excess of length and by fold; as rest_
+};
+
+//! An order in which items that touch a common vertex are several places apart, as near to the order given as that
+//! allows: their solution can overlap in the processor.
+std::vector<int> independentOrder(const std::vector<std::vector<int>>& vertices_of_items, int vertices);
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

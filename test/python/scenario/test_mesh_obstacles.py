@@ -1,0 +1,73 @@
+"""Mesh obstacles in the scenario file."""
+
+import pytest
+
+from deformable_manipulation.scenario import (
+    package_share_directory,
+    scenario_from_mapping,
+    scenario_to_mapping,
+)
+from deformable_manipulation.scenario.spec import MeshObstacle
+
+CUBE = package_share_directory() / "config" / "obstacles" / "cube.obj"
+
+
+@pytest.fixture
+def cube(mapping):
+    """A scenario with a polygon and a cube."""
+    mapping["obstacles"].append({"name": "cube", "mesh": str(CUBE), "translation": [3, 0, 0]})
+    return mapping
+
+
+@pytest.mark.parametrize(
+    "name", [str(CUBE), "package://deformable_manipulation/config/obstacles/cube.obj", "cube.obj"]
+)
+def test_file_names_become_absolute_paths(cube, change, name):
+    change(cube, "obstacles.1.mesh", name)
+    scenario = scenario_from_mapping(cube, CUBE.parent)
+    assert scenario.obstacles[1] == MeshObstacle("cube", str(CUBE), (3.0, 0.0, 0.0))
+    again = scenario_from_mapping(scenario_to_mapping(scenario), "/nowhere")
+    assert again == scenario
+
+
+@pytest.mark.parametrize(
+    "scale, expected", [(2, (2.0, 2.0, 2.0)), ([1, 2, 0.5], (1.0, 2.0, 0.5))]
+)
+def test_scale(cube, change, tmp_path, scale, expected):
+    change(cube, "obstacles.1.scale", scale)
+    assert scenario_from_mapping(cube, tmp_path).obstacles[1].scale == expected
+
+
+WRONG = [
+    ("mesh", "absent.obj", "obstacles.1.mesh", "absent.obj"),
+    ("mesh", "package://nowhere_at_all/x.obj", "obstacles.1.mesh", "no ROS package"),
+    ("mesh", "/dev/null", "obstacles.1.mesh", "/dev/null"),
+    ("mesh", "a\0b.obj", "obstacles.1.mesh", ""),
+    ("mesh", 3, "obstacles.1.mesh", "the name of a mesh file"),
+    ("scale", 0, "obstacles.1.scale", "a number > 0"),
+    ("scale", [1, 1], "obstacles.1.scale", "[x, y, z]"),
+    ("scale", [1, -1, 1], "obstacles.1.scale.1", "a number > 0"),
+    ("rotation", [0, 0, 0, 2], "obstacles.1.rotation", "norm 1"),
+    ("plane", "xz", "obstacles.1.plane", "known keys: name, mesh"),
+    ("polygon", [[0, 0], [1, 0], [1, 1]], "obstacles.1.mesh", "known keys: name, polygon"),
+]
+
+
+@pytest.mark.parametrize("key, value, place, expected", WRONG)
+def test_mistakes(cube, change, problems_of, key, value, place, expected):
+    found = problems_of(change(cube, "obstacles.1." + key, value))
+    assert list(found) == [place]
+    assert expected in found[place]
+
+
+def test_all_mistakes_at_once(cube, change, problems_of):
+    change(cube, "obstacles.1.mesh", "absent.obj")
+    change(cube, "obstacles.1.scale", -1)
+    change(cube, "controller.gain", -1)
+    assert set(problems_of(cube)) == {"obstacles.1.mesh", "obstacles.1.scale", "controller.gain"}
+
+
+def test_files_of_a_checked_mapping_are_not_read_again(cube, change):
+    change(cube, "obstacles.1.mesh", "/nowhere/cube.obj")
+    scenario = scenario_from_mapping(cube, "/nowhere", files_are_read=True)
+    assert scenario.obstacles[1].mesh == "/nowhere/cube.obj"
