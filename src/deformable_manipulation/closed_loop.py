@@ -25,7 +25,8 @@ class ClosedLoop:
 
     def __init__(self, scenario: Scenario, safety: bool = True):
         self._scenario = scenario
-        self._simulation = make_simulation(scenario)
+        # Without barriers nobody asks for gradients.
+        self._simulation = make_simulation(scenario, copies=safety)
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index

@@ -67,8 +67,10 @@ def perturbations(scenario: Scenario):
     return displaced
 
 
-def make_simulation(scenario: Scenario) -> _pbd.Simulation:
-    """The object, settled between the agents at their starts, with its perturbed copies.
+def make_simulation(scenario: Scenario, copies: bool = True) -> _pbd.Simulation:
+    """The object, settled between the agents at their starts.
+
+    :param copies: with its perturbed copies, or without.
 
     Raises _pbd.ParameterError: a parameter is out of range.
     """
@@ -79,7 +81,7 @@ def make_simulation(scenario: Scenario) -> _pbd.Simulation:
     return _pbd.Simulation(
         make_body(scenario.object, scenario.simulation),
         agents,
-        perturbations(scenario),
+        perturbations(scenario) if copies else [],
         time_step=scenario.simulation.time_step,
         substeps=scenario.simulation.substeps,
         steps_per_cycle=scenario.steps_per_cycle,

@@ -13,8 +13,9 @@ SCENARIOS = (
     "rope_one_assistant",
     "stiff_rod_one_assistant",
     "rope_two_assistants",
+    "fabric_three_assistants",
 )
-SECONDS = {True: 5.0, False: 100.0}  # quick, full: until the barriers have long been active
+SECONDS = {True: 5.0, False: 100.0}  # quick, full: until the barriers of ropes have long been active
 
 LATENCY_COLUMNS = (
     Column("scenario", "scenario"),
