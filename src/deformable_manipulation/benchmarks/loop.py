@@ -15,7 +15,7 @@ SCENARIOS = (
     "rope_two_assistants",
     "fabric_three_assistants",
 )
-SECONDS = {True: 5.0, False: 100.0}  # quick, full: until the barriers of ropes have long been active
+SECONDS = {True: 5.0, False: 100.0}  # quick; full: until the ropes' barriers are active
 
 LATENCY_COLUMNS = (
     Column("scenario", "scenario"),
