@@ -17,8 +17,11 @@ constexpr double kUndone = 0.5;
 // Where a substep takes away more than this part of a fold, folds undo the edges too, and rest lengths do not adapt.
 constexpr double kStiffFold = 0.5;
 
-// m^2, area of two triangles in a mesh that needs no more compliance than a coarser one.
+// m^2, area of two triangles in a mesh that needs no more compliance than a coarser one, however limp.
 constexpr double kCoarse = 0.02;
+
+// 1/s^2, about the square of the highest frequency of folds: below, fine meshes need more compliance.
+constexpr double kLimp = 2000.0;
 
 // Adapted rest lengths stay within this part of the true ones.
 constexpr double kMostAdapted = 0.1;
@@ -52,7 +55,7 @@ double stiffness(double response, double compliance) {
 //! symmetric, and feeds energy into the folds of a net of stiff edges. Compliance stops that; the shorter the substeps,
 //! the less damping there is in each to help.
 double leastCompliance(double damping) {
-  constexpr double kLeast = 0.65, kMost = 3.0;
+  constexpr double kLeast = 0.6, kMost = 3.0;
   return std::min(kMost, kLeast * std::max(1.0, std::pow(0.01 / damping, 0.75)));
 }
 
@@ -105,7 +108,7 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
   }
   const auto note = [this](const MeshEdge& edge, double fold_area) {
     const double pair = edge.interior() ? edge.area : 2.0 * edge.area;
-    const double fineness = std::max(1.0, std::pow(kCoarse / pair, 0.25));
+    const double fineness = std::max(1.0, std::cbrt(kCoarse / pair));
     rest_.push_back({edge.length * edge.length / edge.area, fold_area, fineness});
   };
   const int count = static_cast<int>(vertices.size());
@@ -141,8 +144,8 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
     const int end = vertexAt(at[1]);
     const double response = inverse_mass[start] + inverse_mass[end];
     const double unfolded = std::max(unfolded_[start], unfolded_[end]);
-    const double compliance = std::max(stretching_compliance * rest_[i].length_share / (h * h),
-                                       (least * rest_[i].fineness + unfolded) * response);
+    const double floor = least * (unfolded < kLimp * h * h ? rest_[i].fineness : 1.0) + unfolded;
+    const double compliance = std::max(stretching_compliance * rest_[i].length_share / (h * h), floor * response);
     const double s = stiffness(response, compliance - kUndone * response);
     stretch.yield = s > 0.0 ? s * compliance : 1.0;
     stretch.most_adapted = unfolded > kStiffFold ? 0.0 : kMostAdapted * stretch.rest_length;
