@@ -54,6 +54,7 @@ struct Fabric::State {
         carried(3 * p.vertices.size()),
         pool(std::make_shared<ThreadPool>(p.threads)),
         motions(p.vertices.size()) {
+    selectedFabricKernel();  // the first time, that reads the environment
     recorded.emplace_back(constraints.recordedSize());
     groups.emplace_back(static_cast<int>(p.vertices.size()), static_cast<int>(edges.size()));
   }
@@ -213,7 +214,8 @@ void Fabric::stop() {
 void Fabric::beginStep(double h) {
   State& s = *state_;
   if (s.constraints_for != h) {
-    s.constraints.update(s.inverse_mass, parameters_.stretching_compliance, parameters_.bending_compliance, h);
+    s.constraints.update(s.inverse_mass, parameters_.stretching_compliance, parameters_.bending_compliance,
+                         parameters_.damping, h);
     s.constraints_for = h;
   }
   const double decay = std::exp(-parameters_.damping * h);

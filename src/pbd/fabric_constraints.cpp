@@ -2,21 +2,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <list>
 
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-// Compliance of an edge in equilibrium, at least, as a part of its response: below, the folds of a cloth between its
-// holds do not always come to rest.
-constexpr double kLeastCompliance = 0.4;
+// What springs solved later undo of an earlier one in a net in equilibrium, as a part of its response: half, as the
+// forces on each vertex balance. In the state of rest an edge would be longer by that, so it is taken off its
+// compliance.
+constexpr double kUndone = 0.5;
+
+// Where a substep takes away more than this part of a fold, folds undo the edges too, and rest lengths do not adapt.
+constexpr double kStiffFold = 0.5;
+
+// m^2, area of two triangles in a mesh that needs no more compliance than a coarser one, however limp.
+constexpr double kCoarse = 0.02;
+
+// 1/s^2, about the square of the highest frequency of folds: below, fine meshes need more compliance.
+constexpr double kLimp = 2000.0;
+
+// Adapted rest lengths stay within this part of the true ones.
+constexpr double kMostAdapted = 0.1;
 
 // Places between two constraints that touch a common vertex, and how far ahead such are searched for.
 constexpr int kApart = 3;
 constexpr int kLookAhead = 96;
 
 int place(int vertex) { return 3 * kLanes * vertex; }
+
+int vertexAt(int place) { return place / (3 * kLanes); }
 
 std::array<double, 4> weightsOf(const HingeConstraint& hinge) {
   const double end = hinge.weight_of_end;
@@ -35,12 +51,12 @@ double stiffness(double response, double compliance) {
   return sum > 0.0 ? 1.0 / sum : 0.0;
 }
 
-//! The same for a spring in a net in equilibrium. A substep is one sweep from zero. Springs that are solved later undo
-//! part of what an earlier one did, half its response as the forces on each vertex balance: in the state of rest they
-//! would be longer by that. What they yield too much is taken off their compliance, as far as that goes without
-//! over-relaxation, which is not stable.
-double stiffnessInNet(double response, double compliance) {
-  return stiffness(response, std::max(0.0, compliance - 0.5 * response));
+//! Least compliance of an edge as a part of its response, for a damping per substep; found by trial. One sweep is not
+//! symmetric, and feeds energy into the folds of a net of stiff edges. Compliance stops that; the shorter the substeps,
+//! the less damping there is in each to help.
+double leastCompliance(double damping) {
+  constexpr double kLeast = 0.6, kMost = 3.0;
+  return std::min(kMost, kLeast * std::max(1.0, std::pow(0.01 / damping, 0.75)));
 }
 
 }  // namespace
@@ -91,7 +107,9 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
     }
   }
   const auto note = [this](const MeshEdge& edge, double fold_area) {
-    rest_.push_back({edge.length * edge.length / edge.area, fold_area});
+    const double pair = edge.interior() ? edge.area : 2.0 * edge.area;
+    const double fineness = std::max(1.0, std::cbrt(kCoarse / pair));
+    rest_.push_back({edge.length * edge.length / edge.area, fold_area, fineness});
   };
   const int count = static_cast<int>(vertices.size());
   for (int i : independentOrder(interior_vertices, count)) {
@@ -109,44 +127,59 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
   }
   for (int i : independentOrder(boundary_vertices, count)) {
     boundaries_.push_back(
-        {{boundary[i]->length, {}, 1.0}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
+        {{boundary[i]->length, {}, 1.0, 0.0}, {place(boundary_vertices[i][0]), place(boundary_vertices[i][1])}});
     note(*boundary[i], 0.0);
   }
+  unfolded_.resize(vertices.size());
   spring_.resize(rest_.size());
   fold_spring_.resize(hinges_.size());
 }
 
 void FabricConstraints::update(const std::vector<double>& inverse_mass, double stretching_compliance,
-                               double bending_compliance, double h) {
-  const double per_h2 = 1.0 / (h * h);
-  const auto mobility = [&inverse_mass](int at) { return inverse_mass[at / (3 * kLanes)]; };
+                               double bending_compliance, double damping, double h) {
+  updateFolds(inverse_mass, bending_compliance, h);
+  const double least = leastCompliance(damping * h);
   const auto updateStretch = [&](StretchConstraint& stretch, const int* at, std::size_t i) {
-    const double w0 = mobility(at[0]);
-    const double w1 = mobility(at[1]);
-    const double compliance = stretching_compliance * rest_[i].length_share * per_h2;
-    const double s = stiffnessInNet(w0 + w1, compliance);
-    stretch.yield = s > 0.0 ? s * std::max(compliance, kLeastCompliance * (w0 + w1)) : 1.0;
-    stretch.gain[0] = s * w0;
-    stretch.gain[1] = -s * w1;
-    spring_[i] = s * per_h2;
+    const int start = vertexAt(at[0]);
+    const int end = vertexAt(at[1]);
+    const double response = inverse_mass[start] + inverse_mass[end];
+    const double unfolded = std::max(unfolded_[start], unfolded_[end]);
+    const double floor = least * (unfolded < kLimp * h * h ? rest_[i].fineness : 1.0) + unfolded;
+    const double compliance = std::max(stretching_compliance * rest_[i].length_share / (h * h), floor * response);
+    const double s = stiffness(response, compliance - kUndone * response);
+    stretch.yield = s > 0.0 ? s * compliance : 1.0;
+    stretch.most_adapted = unfolded > kStiffFold ? 0.0 : kMostAdapted * stretch.rest_length;
+    stretch.gain[0] = s * inverse_mass[start];
+    stretch.gain[1] = -s * inverse_mass[end];
+    spring_[i] = s / (h * h);
   };
   for (std::size_t i = 0; i < hinges_.size(); ++i) {
     HingeConstraint& hinge = hinges_[i];
-    const std::array<double, 4> weights = weightsOf(hinge);
     updateStretch(hinge.stretch, hinge.at, i);
-    double response = 0.0;
-    for (int k = 0; k < 4; ++k) {
-      response += mobility(hinge.at[k]) * weights[k] * weights[k];
-    }
-    const double s = stiffness(response, bending_compliance * rest_[i].fold_area * per_h2);
-    for (int k = 0; k < 4; ++k) {
-      hinge.gain[k] = -s * mobility(hinge.at[k]) * weights[k];
-    }
+    const std::array<double, 4> weights = weightsOf(hinge);
     hinge.weight_of_stretch = weights[0] * hinge.stretch.gain[0] + weights[1] * hinge.stretch.gain[1];
-    fold_spring_[i] = s * per_h2;
   }
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     updateStretch(boundaries_[i].stretch, boundaries_[i].at, hinges_.size() + i);
+  }
+}
+
+void FabricConstraints::updateFolds(const std::vector<double>& inverse_mass, double bending_compliance, double h) {
+  std::fill(unfolded_.begin(), unfolded_.end(), 0.0);
+  for (std::size_t i = 0; i < hinges_.size(); ++i) {
+    HingeConstraint& hinge = hinges_[i];
+    const std::array<double, 4> weights = weightsOf(hinge);
+    double response = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      response += inverse_mass[vertexAt(hinge.at[k])] * weights[k] * weights[k];
+    }
+    const double s = stiffness(response, bending_compliance * rest_[i].fold_area / (h * h));
+    for (int k = 0; k < 4; ++k) {
+      const int vertex = vertexAt(hinge.at[k]);
+      hinge.gain[k] = -s * inverse_mass[vertex] * weights[k];
+      unfolded_[vertex] = std::max(unfolded_[vertex], s * response);
+    }
+    fold_spring_[i] = s / (h * h);
   }
 }
 

@@ -16,8 +16,9 @@ class FabricConstraints {
 
   //! Sets the gains for substeps of h [s]; nothing is allocated.
   //! @param inverse_mass  [vertices] 1/kg, zero where held
+  //! @param damping       1/s
   void update(const std::vector<double>& inverse_mass, double stretching_compliance, double bending_compliance,
-              double h);
+              double damping, double h);
 
   const std::vector<HingeConstraint>& hinges() const { return hinges_; }
   const std::vector<BoundaryConstraint>& boundaries() const { return boundaries_; }
@@ -38,11 +39,15 @@ class FabricConstraints {
   struct Rest {
     double length_share;  // compliance of the edge as a part of the fabric's stretching compliance
     double fold_area;     // m^2, compliance of the fold as a part of the fabric's bending compliance; 0 on the boundary
+    double fineness;      // factor of the least compliance: fine folds take up more energy
   };
+
+  void updateFolds(const std::vector<double>& inverse_mass, double bending_compliance, double h);
 
   std::vector<HingeConstraint> hinges_;
   std::vector<BoundaryConstraint> boundaries_;
   std::vector<Rest> rest_;                    // of the hinges, then the boundary edges
+  std::vector<double> unfolded_;              // [vertices] largest part of a fold that a substep takes away
   std::vector<double> spring_, fold_spring_;  // N/m, force by excess of length and by fold; as rest_
 };
 

@@ -14,9 +14,6 @@ namespace {
 // m^2, added to squared lengths: below rounding, and an edge without length has no direction but is finite.
 constexpr double kTiny = 1e-30;
 
-// Adapted rest lengths stay within this part of the true ones.
-constexpr double kMostAdapted = 0.1;
-
 //! One pack of copies of a fabric.
 class FabricPack {
  public:
@@ -145,8 +142,8 @@ class FabricPack {
     const Pack corrected = inverse_length * dot(load3(recorded, kLanes), edge);
     const Pack error = square * inverse_length - c.rest_length - c.yield * corrected;
     const Pack adapted = load(rest_length) - in_.adaptation * error;
-    const Pack least = broadcast((1.0 - kMostAdapted) * c.rest_length);
-    const Pack most = broadcast((1.0 + kMostAdapted) * c.rest_length);
+    const Pack least = broadcast(c.rest_length - c.most_adapted);
+    const Pack most = broadcast(c.rest_length + c.most_adapted);
     store(rest_length, adapted < least ? least : (adapted > most ? most : adapted));
   }
 

@@ -27,7 +27,8 @@ struct FabricLanes {
 struct StretchConstraint {
   double rest_length;  // m
   double gain[2];
-  double yield;  // elongation in equilibrium as a part of the excess that is corrected
+  double yield;         // elongation in equilibrium as a part of the excess that is corrected
+  double most_adapted;  // m, by which the adapted rest length may differ
 };
 
 //! An edge between two triangles: a spring that also resists folding. A vertex moves by its gain times the fold, the

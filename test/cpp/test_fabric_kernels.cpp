@@ -25,7 +25,7 @@ class FabricRun {
         held_(2 * kSubsteps),
         recorded_(constraints_.recordedSize()) {
     inverse_mass_[0] = inverse_mass_[6] = 0.0;
-    constraints_.update(inverse_mass_, 1e-4, 1e2, kStep);
+    constraints_.update(inverse_mass_, 1e-4, 1e2, 10.0, kStep);
   }
 
   FabricLanes run(const FabricKernel& kernel, int copies) {
