@@ -54,6 +54,15 @@ struct Box {
   }
 };
 
+template <std::size_t N>
+Box boxAround(const std::array<Vector3, N>& points) {
+  Box box;
+  for (const Vector3& point : points) {
+    box.include(point);
+  }
+  return box;
+}
+
 //! Four numbers of single precision in one register.
 typedef float FourFloats __attribute__((vector_size(4 * sizeof(float))));
 
@@ -106,6 +115,17 @@ struct BoxNode {
     }
     return sum * (1.0F - 1e-6F);  // rounding
   }
+
+  //! Upper bounds [m] of how far the children reach along a unit vector; not a number where there is none.
+  FourFloats heightsAlong(const Eigen::Vector3f& normal) const {
+    FourFloats sum = {}, size = {};
+    for (int k = 0; k < 3; ++k) {
+      const FourFloats highest = normal[k] * (normal[k] > 0.0F ? high[k] : low[k]);
+      sum += highest;
+      size += absolute(highest);
+    }
+    return sum + 1e-6F * size;  // rounding
+  }
 };
 
 //! A tree of boxes with four children a node; node 0 is the root.
@@ -127,6 +147,8 @@ class NearChildren {
         }
         bounds_[at] = bounds[slot];
         children_[at] = node.children[slot];
+      } else {
+        least_left_out_ = std::min(least_left_out_, bounds[slot]);
       }
     }
   }
@@ -134,10 +156,12 @@ class NearChildren {
   int count() const { return count_; }
   int child(int i) const { return children_[i]; }
   float bound(int i) const { return bounds_[i]; }
+  float leastLeftOut() const { return least_left_out_; }
 
  private:
   std::array<float, 4> bounds_;
   std::array<int, 4> children_;
+  float least_left_out_ = INFINITY;
   int count_ = 0;
 };
 

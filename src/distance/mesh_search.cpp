@@ -12,8 +12,9 @@ constexpr double kLevel = 1e-9;  // m, differences of distance below it count as
 
 }  // namespace
 
-void MeshSearch::start(const ObjectTree& object) {
+void MeshSearch::start(ObjectTree& object, MovingBounds* bounds) {
   object_ = &object;
+  bounds_ = bounds;
   const std::size_t points = object.pointCount();
   if (samples_.size() != points) {
     samples_.assign(points, SurfacePoint());
@@ -35,8 +36,8 @@ MeshPlace MeshSearch::placeAt(int element, const Weights& weights, double distan
   return {distance, triangle, element, object_->element(element), weights};
 }
 
-MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const MeshPlace& guess) {
-  start(object);
+MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace& guess, MovingBounds* bounds) {
+  start(object, bounds);
   const double known_depth = std::max(0.0, -bound);
   double upper = bound;
   if (guess.known()) {
@@ -50,8 +51,7 @@ MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const Mesh
     }
     upper = std::min(upper, there.distance);
   }
-  upper = std::max(upper, 0.0) + kSlack;
-  const Nearest found = nearestPair(0, upper * upper);
+  const Nearest found = nearestPair(std::max(upper, 0.0));
   if (found.element < 0) {
     return pieceInside(-1) ? deepest(known_depth) : MeshPlace();
   }
@@ -69,75 +69,96 @@ MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const Mesh
   return place;
 }
 
-MeshSearch::Nearest MeshSearch::nearestPair(int object_root, double squared_bound) {
+//! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always the
+//! same one, whatever was known before.
+MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
   Nearest nearest;
-  nearest.at.squared = squared_bound;
-  if (object_->surface()) {
-    search<3>(object_root, &nearest);
-  } else {
-    search<2>(object_root, &nearest);
+  nearest.at.squared = (bound + kSlack) * (bound + kSlack);
+  for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
+    if (bounds_->of(element) < bound + kSlack &&
+        !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
+      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve());
+      if (found.at.squared < nearest.at.squared) {
+        nearest = found;
+        bound = std::sqrt(found.at.squared);
+      }
+    }
   }
   return nearest;
 }
 
+//! The nearest pair of one element, if it is not farther apart than the reach [m].
+MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach) {
+  Nearest nearest;
+  nearest.at.squared = reach * reach;
+  const double lowest = object_->surface() ? search<3>(element, &nearest) : search<2>(element, &nearest);
+  bounds_->set(element, std::sqrt(lowest));
+  if (nearest.element >= 0 && nearest.at.squared > kSlack * kSlack) {
+    bounds_->set(element, separate(nearest));
+  }
+  return nearest;
+}
+
+//! A plane through the nearest point of the surface, square to the way to the element, or as far behind it as needed.
+MovingBounds::Plane MeshSearch::separate(const Nearest& nearest) {
+  const Corners<3> corners = object_->corners<3>(nearest.element);
+  const Corners<3> triangle = surface_.corners(nearest.triangle);
+  const Vector3 point = weighted<3>(corners, nearest.at.weights);
+  const Vector3 there = weighted<3>(triangle, nearestOnTriangle(point, triangle).weights);
+  MovingBounds::Plane plane;
+  plane.normal = (point - there).normalized();
+  const double lowest = plane.normal.dot(there);
+  plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), INFINITY);
+  plane.beyond = INFINITY;
+  if (plane.height > lowest + kSlack) {
+    plane.beyond = std::sqrt(nearest.at.squared) + bounds_->reserve();
+    plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), plane.beyond * plane.beyond);
+  }
+  plane.height += kSlack;
+  return plane;
+}
+
+//! Returns a lower bound [m^2] of the element's squared distance.
 template <int K>
-void MeshSearch::search(int object_root, Nearest* nearest) {
-  stack_.push(0.0F, {object_root, 0});
+double MeshSearch::search(int element, Nearest* nearest) {
+  const Corners<K> corners = object_->corners<K>(element);
+  const Box box = boxAround(corners);
+  const FloatElement<K> rough(corners);
+  double beyond = INFINITY;  // m^2, least bound of what has been left out
+  stack_.push(0.0F, 0);
   while (!stack_.empty()) {
     const auto entry = stack_.pop();
     if (entry.bound >= nearest->at.squared) {
       continue;
     }
-    const Pair pair = entry.what;
-    if (pair.object >= 0 || pair.surface >= 0) {
-      expand<K>(pair, nearest->at.squared);
+    if (entry.what < 0) {
+      if (ElementDistance<K>(corners, surface_.corners(~entry.what)).improve(&nearest->at)) {
+        nearest->element = element;
+        nearest->triangle = ~entry.what;
+      }
+      beyond = nearest->at.squared;
       continue;
     }
-    const Corners<K> element = object_->corners<K>(~pair.object);
-    const Corners<3> triangle = surface_.corners(~pair.surface);
-    if (ElementDistance<K>(element, triangle).improve(&nearest->at)) {
-      nearest->element = ~pair.object;
-      nearest->triangle = ~pair.surface;
+    const FourFloats bounds = boundsOf<K>(corners, rough, box, entry.what, nearest->at.squared);
+    const NearChildren near(surface_.tree()[entry.what], bounds, nearest->at.squared);
+    for (int i = 0; i < near.count(); ++i) {
+      stack_.push(near.bound(i), near.child(i));
     }
+    beyond = std::min(beyond, double(near.leastLeftOut()));
   }
-}
-
-//! Pushes the pairs of one's children with the other; of two nodes the larger one is opened.
-template <int K>
-void MeshSearch::expand(const Pair& pair, double limit) {
-  if (pair.object < 0) {
-    expandSurface(pair, boundsOf<K>(~pair.object, pair.surface, limit), limit);
-    return;
-  }
-  const BoxNode& of_object = object_->tree()[pair.object];
-  if (pair.surface >= 0 && surface_.tree()[pair.surface].box.extent() >= of_object.box.extent()) {
-    expandSurface(pair, surface_.tree()[pair.surface].squaredDistances(of_object.box), limit);
-    return;
-  }
-  const Box of_surface = pair.surface < 0 ? surface_.boxOf(~pair.surface) : surface_.tree()[pair.surface].box;
-  const NearChildren near(of_object, of_object.squaredDistances(of_surface), limit);
-  for (int i = 0; i < near.count(); ++i) {
-    stack_.push(near.bound(i), {near.child(i), pair.surface});
-  }
-}
-
-void MeshSearch::expandSurface(const Pair& pair, const FourFloats& bounds, double limit) {
-  const NearChildren near(surface_.tree()[pair.surface], bounds, limit);
-  for (int i = 0; i < near.count(); ++i) {
-    stack_.push(near.bound(i), {pair.object, near.child(i)});
-  }
+  return nearest->element < 0 ? beyond : nearest->at.squared;
 }
 
 //! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
 //! above the limit are rough.
 template <int K>
-FourFloats MeshSearch::boundsOf(int element, int node, double limit) const {
-  const Corners<K> corners = object_->corners<K>(element);
-  const FourFloats by_boxes = surface_.tree()[node].squaredDistances(object_->boxOf(element));
+FourFloats MeshSearch::boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box, int node,
+                                double limit) const {
+  const FourFloats by_boxes = surface_.tree()[node].squaredDistances(box);
   if (!(by_boxes[0] < limit || by_boxes[1] < limit || by_boxes[2] < limit || by_boxes[3] < limit)) {
     return by_boxes;
   }
-  FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(FloatElement<K>(corners)));
+  FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(rough));
   for (int slot = 0; slot < 4; ++slot) {
     if (bounds[slot] < limit) {
       const double closer = surface_.discs(node).squaredDistance<K>(slot, corners);
@@ -164,6 +185,7 @@ bool MeshSearch::pieceInside(int certified_piece) {
 MeshPlace MeshSearch::deepest(double least_depth) {
   MeshPlace best;
   best.distance = -least_depth;
+  object_->fit();
   descend(0, &best);
   return best.known() ? best : MeshPlace();
 }
@@ -238,38 +260,45 @@ MeshPlace MeshSearch::deepestOf(int element, double threshold) {
   return found.triangle < 0 ? MeshPlace() : placeAt(element, found.weights, -found.depth, found.triangle);
 }
 
-void MeshSearch::elements(const ObjectTree& object, double limit, const MeshPlace& guess,
+void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& guess, MovingBounds* bounds,
                           std::vector<MeshPlace>* places) {
-  start(object);
-  const bool inside = surface_.closed() && minimum(object, 0.0, guess).distance <= 0.0;
+  start(object, bounds);
+  const bool inside = surface_.closed() && minimum(object, 0.0, guess, bounds).distance <= 0.0;
   places->assign(object.size(), MeshPlace());
   last_triangles_.resize(object.size(), -1);
   const double reach = std::max(limit, 0.0);
   for (int element = 0; element < object.size(); ++element) {
-    const FourFloats away = surface_.tree()[0].squaredDistances(object.boxOf(element));
-    if (*std::min_element(&away[0], &away[0] + 4) <= reach * reach) {
-      (*places)[element] = inside ? elementPlace(element, limit) : outsidePlace(element, limit);
+    if (!inside && bounds->of(element) < reach + kSlack) {
+      (*places)[element] = outsidePlace(element, limit);
+    } else if (inside && touchesBox(element, reach)) {
+      (*places)[element] = elementPlace(element, limit);
     }
   }
 }
 
+//! Whether an element is not farther than the reach [m] from the boxes around the surface.
+bool MeshSearch::touchesBox(int element, double reach) const {
+  const FourFloats away = surface_.tree()[0].squaredDistances(boxAround(object_->corners<3>(element)));
+  return *std::min_element(&away[0], &away[0] + 4) <= reach * reach;
+}
+
 //! The nearest pair of one element, if it is not farther apart than the bound [m].
-MeshSearch::Nearest MeshSearch::nearestOfElement(int element, double bound) {
+MeshSearch::Nearest MeshSearch::nearestWithin(int element, double bound) {
   const int last = last_triangles_[element];
+  double reach = bound + bounds_->reserve();
   if (last >= 0) {
     const Corners<3> corners = object_->corners<3>(element);  // of a segment: without an area
     ElementNearest at{INFINITY};
     ElementDistance<3>(corners, surface_.corners(last)).improve(&at);
-    bound = std::min(bound, std::sqrt(at.squared));
+    reach = std::min(reach, std::sqrt(at.squared));
   }
-  bound += kSlack;
-  const Nearest found = nearestPair(~element, bound * bound);
+  const Nearest found = nearestOf(element, reach + kSlack);
   last_triangles_[element] = found.triangle >= 0 ? found.triangle : last;
   return found;
 }
 
 MeshPlace MeshSearch::outsidePlace(int element, double limit) {
-  const Nearest found = nearestOfElement(element, std::max(limit, 0.0));
+  const Nearest found = nearestWithin(element, std::max(limit, 0.0));
   const MeshPlace place =
       found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
@@ -282,7 +311,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
   }
   MeshPlace crossing;
   if (least >= 0.0) {
-    const Nearest found = nearestOfElement(element, std::max(std::min(limit, least), 0.0));
+    const Nearest found = nearestWithin(element, std::max(std::min(limit, least), 0.0));
     if (found.element < 0) {
       return {};
     }
