@@ -145,7 +145,8 @@ class MeshObstacle::Search {
       feature.object_point += place.weights[k] * object.point(copy, place.vertices[k]);
     }
     const Vector3 local = toLocal(feature.object_point);
-    const SurfacePoint nearest = search.surface().nearest(local, place.triangle);
+    const SurfacePoint nearest =
+        place.there.triangle >= 0 ? place.there : search.surface().nearest(local, place.triangle);
     const Vector3 arm = rotation_ * (local - search.surface().position(nearest));
     feature.distance = nearest.distance;
     feature.obstacle_point = feature.object_point - arm;

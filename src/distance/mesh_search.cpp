@@ -33,7 +33,11 @@ const SurfacePoint& MeshSearch::cornerSample(int point, int hint) {
 }
 
 MeshPlace MeshSearch::placeAt(int element, const Weights& weights, double distance, int triangle) const {
-  return {distance, triangle, element, object_->element(element), weights};
+  return {distance, triangle, element, object_->element(element), weights, SurfacePoint()};
+}
+
+MeshPlace MeshSearch::placeAt(int element, const Weights& weights, const SurfacePoint& there) const {
+  return {there.distance, there.triangle, element, object_->element(element), weights, there};
 }
 
 MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace& guess, MovingBounds* bounds) {
@@ -55,13 +59,14 @@ MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace&
   if (found.element < 0) {
     return pieceInside(-1) ? deepest(known_depth) : MeshPlace();
   }
-  const MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+  MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   if (!surface_.closed()) {
     return place;
   }
   const bool touches = found.at.squared == 0.0;
   const Vector3 point = weighted<3>(object.corners<3>(place.element), place.weights);
-  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 ||
+  place.there = surface_.nearest(point, place.triangle);
+  if (touches || place.there.distance < 0.0 ||
       pieceInside(object.pieceOf(place.vertices[0]))) {
     const MeshPlace deep = deepest(known_depth);
     return deep.known() ? deep : place;
@@ -77,7 +82,10 @@ MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
   for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
     if (bounds_->of(element) < bound + kSlack &&
         !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
-      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve());
+      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), Nearest());
+      if (found.element >= 0 && found.at.squared > kSlack * kSlack) {
+        bounds_->set(element, separate(found));
+      }
       if (found.at.squared < nearest.at.squared) {
         nearest = found;
         bound = std::sqrt(found.at.squared);
@@ -88,14 +96,12 @@ MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
 }
 
 //! The nearest pair of one element, if it is not farther apart than the reach [m].
-MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach) {
+//! @param known a pair of it, which need not be compared again, or none
+MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach, const Nearest& known) {
   Nearest nearest;
   nearest.at.squared = reach * reach;
-  const double lowest = object_->surface() ? search<3>(element, &nearest) : search<2>(element, &nearest);
+  const double lowest = object_->surface() ? search<3>(element, known, &nearest) : search<2>(element, known, &nearest);
   bounds_->set(element, std::sqrt(lowest));
-  if (nearest.element >= 0 && nearest.at.squared > kSlack * kSlack) {
-    bounds_->set(element, separate(nearest));
-  }
   return nearest;
 }
 
@@ -120,7 +126,7 @@ MovingBounds::Plane MeshSearch::separate(const Nearest& nearest) {
 
 //! Returns a lower bound [m^2] of the element's squared distance.
 template <int K>
-double MeshSearch::search(int element, Nearest* nearest) {
+double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
   const Corners<K> corners = object_->corners<K>(element);
   const Box box = boxAround(corners);
   const FloatElement<K> rough(corners);
@@ -132,9 +138,14 @@ double MeshSearch::search(int element, Nearest* nearest) {
       continue;
     }
     if (entry.what < 0) {
-      if (ElementDistance<K>(corners, surface_.corners(~entry.what)).improve(&nearest->at)) {
+      const int triangle = ~entry.what;
+      if (triangle == known.triangle) {
+        if (known.at.squared < nearest->at.squared) {
+          *nearest = known;
+        }
+      } else if (ElementDistance<K>(corners, surface_.corners(triangle)).improve(&nearest->at)) {
         nearest->element = element;
-        nearest->triangle = ~entry.what;
+        nearest->triangle = triangle;
       }
       beyond = nearest->at.squared;
       continue;
@@ -246,7 +257,7 @@ MeshPlace MeshSearch::placeOfPoint(int point, const SurfacePoint& there) const {
   Weights weights = {0.0, 0.0, 0.0};
   const Triangle& vertices = object_->element(element);
   weights[std::find(vertices.begin(), vertices.end(), point) - vertices.begin()] = 1.0;
-  return placeAt(element, weights, there.distance, there.triangle);
+  return placeAt(element, weights, there);
 }
 
 MeshPlace MeshSearch::deepestOf(int element, double threshold) {
@@ -276,6 +287,16 @@ void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& gue
   }
 }
 
+//! Compares the element and the triangle of a pair.
+void MeshSearch::improve(Nearest* pair) const {
+  const Corners<3> triangle = surface_.corners(pair->triangle);
+  if (object_->surface()) {
+    ElementDistance<3>(object_->corners<3>(pair->element), triangle).improve(&pair->at);
+  } else {
+    ElementDistance<2>(object_->corners<2>(pair->element), triangle).improve(&pair->at);
+  }
+}
+
 //! Whether an element is not farther than the reach [m] from the boxes around the surface.
 bool MeshSearch::touchesBox(int element, double reach) const {
   const FourFloats away = surface_.tree()[0].squaredDistances(boxAround(object_->corners<3>(element)));
@@ -284,16 +305,15 @@ bool MeshSearch::touchesBox(int element, double reach) const {
 
 //! The nearest pair of one element, if it is not farther apart than the bound [m].
 MeshSearch::Nearest MeshSearch::nearestWithin(int element, double bound) {
-  const int last = last_triangles_[element];
-  double reach = bound + bounds_->reserve();
-  if (last >= 0) {
-    const Corners<3> corners = object_->corners<3>(element);  // of a segment: without an area
-    ElementNearest at{INFINITY};
-    ElementDistance<3>(corners, surface_.corners(last)).improve(&at);
-    reach = std::min(reach, std::sqrt(at.squared));
+  Nearest last;
+  last.element = element;
+  last.triangle = last_triangles_[element];
+  if (last.triangle >= 0) {
+    improve(&last);
   }
-  const Nearest found = nearestOf(element, reach + kSlack);
-  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last;
+  const double reach = std::min(bound + bounds_->reserve(), std::sqrt(last.at.squared));
+  const Nearest found = nearestOf(element, reach + kSlack, last);
+  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last.triangle;
   return found;
 }
 
@@ -352,13 +372,13 @@ double MeshSearch::lowestPossible(int element, double* least) {
 //! so, too.
 MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   Weights mean = {0.0, 0.0, 0.0};
-  int count = 0;
+  int count = 0, alone = -1;
   for (int k = 0; k < object_->cornerCount(); ++k) {
     const Vector3& corner = object_->point(place.vertices[k]);
     if (surface_.distanceToPlane(place.triangle, corner) <= std::fabs(place.distance) + kLevel &&
         cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kLevel) {
       mean[k] += 1.0;
-      ++count;
+      alone = ++count == 1 ? k : -1;
     }
   }
   if (count == 1) {
@@ -368,13 +388,15 @@ MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   if (count == 0) {
     return place;
   }
+  if (alone >= 0 && place.weights[alone] == 1.0) {
+    return placeAt(place.element, place.weights, cornerSample(place.vertices[alone], place.triangle));
+  }
   for (double& weight : mean) {
     weight /= count;
   }
   const Vector3 point = weighted<3>(object_->corners<3>(place.element), mean);
   const SurfacePoint there = surface_.nearest(point, place.triangle);
-  return there.distance <= place.distance + kLevel ? placeAt(place.element, mean, there.distance, there.triangle)
-                                                   : place;
+  return there.distance <= place.distance + kLevel ? placeAt(place.element, mean, there) : place;
 }
 
 }  // namespace distance

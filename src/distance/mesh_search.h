@@ -19,6 +19,7 @@ struct MeshPlace {
   int element = -1;            //!< of the object
   Triangle vertices = {0, 0, 0};
   Weights weights = {0.0, 0.0, 0.0};
+  SurfacePoint there;  //!< the surface's nearest point, or without a triangle: not searched yet
 
   bool known() const { return element >= 0; }
 };
@@ -61,12 +62,13 @@ class MeshSearch {
   void start(ObjectTree& object, MovingBounds* bounds);
   const SurfacePoint& cornerSample(int point, int hint);
   MeshPlace placeAt(int element, const Weights& weights, double distance, int triangle) const;
+  MeshPlace placeAt(int element, const Weights& weights, const SurfacePoint& there) const;
 
   Nearest nearestPair(double bound);
-  Nearest nearestOf(int element, double reach);
+  Nearest nearestOf(int element, double reach, const Nearest& known);
   MovingBounds::Plane separate(const Nearest& nearest);
   template <int K>
-  double search(int element, Nearest* nearest);
+  double search(int element, const Nearest& known, Nearest* nearest);
   template <int K>
   FourFloats boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box, int node,
                       double limit) const;
@@ -77,6 +79,7 @@ class MeshSearch {
   double depthBound(int child, const Box& box, MeshPlace* best);
   MeshPlace placeOfPoint(int point, const SurfacePoint& there) const;
   MeshPlace deepestOf(int element, double threshold);
+  void improve(Nearest* pair) const;
   bool touchesBox(int element, double reach) const;
   Nearest nearestWithin(int element, double bound);
   MeshPlace outsidePlace(int element, double limit);

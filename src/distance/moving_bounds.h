@@ -36,11 +36,8 @@ class MovingBounds {
 
   double of(int element) const { return bounds_[element] - travel_; }
 
-  //! @param bound [m] of the element, where it is now; what was known of it is forgotten
-  void set(int element, double bound) {
-    bounds_[element] = bound + travel_;
-    planes_[element].height = INFINITY;
-  }
+  //! @param bound [m] of the element, where it is now
+  void set(int element, double bound) { bounds_[element] = bound + travel_; }
 
   //! @param plane with its `beyond` as it is now
   void set(int element, const Plane& plane) {
