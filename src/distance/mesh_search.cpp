@@ -171,7 +171,7 @@ FourFloats MeshSearch::boundsOf(const Corners<K>& corners, const FloatElement<K>
   }
   FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(rough));
   for (int slot = 0; slot < 4; ++slot) {
-    if (bounds[slot] < limit) {
+    if (surface_.tree()[node].children[slot] >= 0 && bounds[slot] < limit) {
       const double closer = surface_.discs(node).squaredDistance<K>(slot, corners);
       bounds[slot] = std::max(bounds[slot], static_cast<float>(closer) * (1.0F - 1e-6F));
     }
