@@ -83,12 +83,11 @@ MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
     if (bounds_->of(element) < bound + kSlack &&
         !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
       const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), Nearest());
-      if (found.element >= 0 && found.at.squared > kSlack * kSlack) {
-        bounds_->set(element, separate(found));
-      }
       if (found.at.squared < nearest.at.squared) {
         nearest = found;
         bound = std::sqrt(found.at.squared);
+      } else if (found.element >= 0 && found.at.squared > (bound + kSlack) * (bound + kSlack)) {
+        bounds_->set(element, separate(found));  // no plane spares those as near as the nearest
       }
     }
   }
