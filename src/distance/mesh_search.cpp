@@ -82,7 +82,9 @@ MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
   for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
     if (bounds_->of(element) < bound + kSlack &&
         !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
-      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), Nearest());
+      Nearest known;
+      known.direction = bounds_->normal(element);
+      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), known);
       if (found.at.squared < nearest.at.squared) {
         nearest = found;
         bound = std::sqrt(found.at.squared);
@@ -104,15 +106,19 @@ MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach, const Neare
   return nearest;
 }
 
+//! The unit vector from the surface towards the element, or zero where they touch.
+Vector3 MeshSearch::towards(const Nearest& pair) const {
+  const Vector3 point = weighted<3>(object_->corners<3>(pair.element), pair.at.weights);
+  const Corners<3> triangle = surface_.corners(pair.triangle);
+  return (point - weighted<3>(triangle, nearestOnTriangle(point, triangle).weights)).normalized();
+}
+
 //! A plane through the nearest point of the surface, square to the way to the element, or as far behind it as needed.
 MovingBounds::Plane MeshSearch::separate(const Nearest& nearest) {
   const Corners<3> corners = object_->corners<3>(nearest.element);
-  const Corners<3> triangle = surface_.corners(nearest.triangle);
-  const Vector3 point = weighted<3>(corners, nearest.at.weights);
-  const Vector3 there = weighted<3>(triangle, nearestOnTriangle(point, triangle).weights);
   MovingBounds::Plane plane;
-  plane.normal = (point - there).normalized();
-  const double lowest = plane.normal.dot(there);
+  plane.normal = towards(nearest);
+  const double lowest = plane.normal.dot(weighted<3>(corners, nearest.at.weights)) - std::sqrt(nearest.at.squared);
   plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), INFINITY);
   plane.beyond = INFINITY;
   if (plane.height > lowest + kSlack) {
@@ -129,6 +135,7 @@ double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
   const Corners<K> corners = object_->corners<K>(element);
   const Box box = boxAround(corners);
   const FloatElement<K> rough(corners);
+  Eigen::Vector3f direction = known.direction.cast<float>();
   double beyond = INFINITY;  // m^2, least bound of what has been left out
   stack_.push(0.0F, 0);
   while (!stack_.empty()) {
@@ -140,16 +147,17 @@ double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
       const int triangle = ~entry.what;
       if (triangle == known.triangle) {
         if (known.at.squared < nearest->at.squared) {
-          *nearest = known;
+          *nearest = known;  // found again
         }
       } else if (ElementDistance<K>(corners, surface_.corners(triangle)).improve(&nearest->at)) {
         nearest->element = element;
         nearest->triangle = triangle;
+        direction = towards(*nearest).cast<float>();
       }
       beyond = nearest->at.squared;
       continue;
     }
-    const FourFloats bounds = boundsOf<K>(corners, rough, box, entry.what, nearest->at.squared);
+    const FourFloats bounds = boundsOf<K>(corners, rough, box, direction, entry.what, nearest->at.squared);
     const NearChildren near(surface_.tree()[entry.what], bounds, nearest->at.squared);
     for (int i = 0; i < near.count(); ++i) {
       stack_.push(near.bound(i), near.child(i));
@@ -162,16 +170,20 @@ double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
 //! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
 //! above the limit are rough.
 template <int K>
-FourFloats MeshSearch::boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box, int node,
-                                double limit) const {
+FourFloats MeshSearch::boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box,
+                                const Eigen::Vector3f& direction, int node, double limit) const {
   const FourFloats by_boxes = surface_.tree()[node].squaredDistances(box);
   if (!(by_boxes[0] < limit || by_boxes[1] < limit || by_boxes[2] < limit || by_boxes[3] < limit)) {
     return by_boxes;
   }
-  FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(rough));
+  const DiscNode& discs = surface_.discs(node);
+  FourFloats bounds = larger(by_boxes, discs.squaredDistances(rough));
+  if (direction.squaredNorm() > 0.0F) {
+    return larger(bounds, discs.squaredDistancesAlong(direction, rough));
+  }
   for (int slot = 0; slot < 4; ++slot) {
     if (surface_.tree()[node].children[slot] >= 0 && bounds[slot] < limit) {
-      const double closer = surface_.discs(node).squaredDistance<K>(slot, corners);
+      const double closer = discs.squaredDistance<K>(slot, corners);
       bounds[slot] = std::max(bounds[slot], static_cast<float>(closer) * (1.0F - 1e-6F));
     }
   }
@@ -309,6 +321,7 @@ MeshSearch::Nearest MeshSearch::nearestWithin(int element, double bound) {
   last.triangle = last_triangles_[element];
   if (last.triangle >= 0) {
     improve(&last);
+    last.direction = towards(last);
   }
   const double reach = std::min(bound + bounds_->reserve(), std::sqrt(last.at.squared));
   const Nearest found = nearestOf(element, reach + kSlack, last);

@@ -53,6 +53,7 @@ class MeshSearch {
   struct Nearest {
     int element = -1, triangle = -1;
     ElementNearest at{INFINITY};
+    Vector3 direction = Vector3::Zero();  // about from the triangle to the element, at most 1 long; for speed only
   };
   struct Candidate {
     double depth;
@@ -66,12 +67,13 @@ class MeshSearch {
 
   Nearest nearestPair(double bound);
   Nearest nearestOf(int element, double reach, const Nearest& known);
+  Vector3 towards(const Nearest& pair) const;
   MovingBounds::Plane separate(const Nearest& nearest);
   template <int K>
   double search(int element, const Nearest& known, Nearest* nearest);
   template <int K>
-  FourFloats boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box, int node,
-                      double limit) const;
+  FourFloats boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box,
+                      const Eigen::Vector3f& direction, int node, double limit) const;
 
   bool pieceInside(int certified_piece);
   MeshPlace deepest(double known_depth);

@@ -45,6 +45,9 @@ class MovingBounds {
     planes_[element].beyond += travel_;
   }
 
+  //! Of an element's plane, or zero.
+  const Vector3& normal(int element) const { return planes_[element].normal; }
+
   //! Whether an element is at least so far away [m], as its plane tells.
   bool renew(int element, const Corners<3>& corners, double least) {
     const Plane& plane = planes_[element];
