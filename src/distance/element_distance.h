@@ -18,18 +18,28 @@ class ElementDistance {
  public:
   ElementDistance(const Corners<K>& element, const Corners<3>& triangle) : a_(element), b_(triangle) {}
 
-  //! Whether they are nearer than the nearest so far, which then is replaced.
+  //! Whether they are nearer than the nearest so far, which then is replaced. What is found does not depend on that.
   bool improve(ElementNearest* nearest) {
+    ElementNearest found{INFINITY};
+    if (!measure(nearest->squared, &found) || found.squared >= nearest->squared) {
+      return false;
+    }
+    *nearest = found;
+    return true;
+  }
+
+ private:
+  //! Returns false if they are seen to be at least so far apart.
+  bool measure(double squared_bound, ElementNearest* found) {
     const Vector3 normal = (b_[1] - b_[0]).cross(b_[2] - b_[0]);
     const double squared_normal = normal.squaredNorm();
     for (int i = 0; i < K; ++i) {
       above_[i] = normal.dot(a_[i] - b_[0]);
     }
     const double gap = gapOf(above_);
-    if (gap > 0.0 && gap * gap >= nearest->squared * squared_normal) {
+    if (gap > 0.0 && gap * gap >= squared_bound * squared_normal) {
       return false;
     }
-    const double before = nearest->squared;
     Vector3 own_normal = Vector3::Zero();
     double squared_own = 0.0, own_gap = 0.0;
     if (K == 3) {
@@ -39,31 +49,30 @@ class ElementDistance {
         own_above_[j] = own_normal.dot(b_[j] - a_[0]);
       }
       own_gap = gapOf(own_above_);
-      if (squared_own > 0.0 && own_gap > 0.0 && own_gap * own_gap >= nearest->squared * squared_own) {
+      if (squared_own > 0.0 && own_gap > 0.0 && own_gap * own_gap >= squared_bound * squared_own) {
         return false;
       }
     }
-    if (pierces(a_, above_, b_, nearest)) {
+    if (pierces(a_, above_, b_, found)) {
       return true;
     }
-    cornersOverFace(normal, squared_normal, nearest);
-    if (gap > 0.0 && nearest->squared <= gap * gap / squared_normal) {  // as near as the planes let it be
-      return nearest->squared < before;
+    cornersOverFace(normal, squared_normal, found);
+    if (gap > 0.0 && found->squared <= gap * gap / squared_normal) {  // as near as the planes let it be
+      return true;
     }
     if (K == 3 && squared_own > 0.0) {
-      if (pierced(nearest)) {
+      if (pierced(found)) {
         return true;
       }
-      faceUnderCorners(own_normal, squared_own, nearest);
-      if (own_gap > 0.0 && nearest->squared <= own_gap * own_gap / squared_own) {
-        return nearest->squared < before;
+      faceUnderCorners(own_normal, squared_own, found);
+      if (own_gap > 0.0 && found->squared <= own_gap * own_gap / squared_own) {
+        return true;
       }
     }
-    edges(nearest);
-    return nearest->squared < before;
+    edges(found);
+    return true;
   }
 
- private:
   static constexpr int kEdges = K == 3 ? 3 : 1;
 
   //! How far all points are on one side of a plane, in lengths of its normal; negative if they are on both.

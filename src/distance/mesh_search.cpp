@@ -66,19 +66,21 @@ MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace&
   const bool touches = found.at.squared == 0.0;
   const Vector3 point = weighted<3>(object.corners<3>(place.element), place.weights);
   place.there = surface_.nearest(point, place.triangle);
-  if (touches || place.there.distance < 0.0 ||
-      pieceInside(object.pieceOf(place.vertices[0]))) {
+  if (touches || place.there.distance < 0.0 || pieceInside(object.pieceOf(place.vertices[0]))) {
     const MeshPlace deep = deepest(known_depth);
     return deep.known() ? deep : place;
   }
   return place;
 }
 
-//! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always the
-//! same one, whatever was known before.
+//! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always
+//! the same one, whatever was known before.
 MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
   Nearest nearest;
   nearest.at.squared = (bound + kSlack) * (bound + kSlack);
+  if (bounds_->least() >= bound + kSlack) {
+    return nearest;
+  }
   for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
     if (bounds_->of(element) < bound + kSlack &&
         !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
@@ -92,6 +94,9 @@ MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
         bounds_->set(element, separate(found));  // no plane spares those as near as the nearest
       }
     }
+  }
+  if (nearest.element < 0) {
+    bounds_->findLeast();
   }
   return nearest;
 }
@@ -157,32 +162,32 @@ double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
       beyond = nearest->at.squared;
       continue;
     }
-    const FourFloats bounds = boundsOf<K>(corners, rough, box, direction, entry.what, nearest->at.squared);
-    const NearChildren near(surface_.tree()[entry.what], bounds, nearest->at.squared);
+    const BoxNode& node = surface_.tree()[entry.what];
+    const DiscNode& discs = surface_.discs(entry.what);
+    FourFloats order = node.squaredDistances(box);
+    FourFloats bounds = order;
+    if (anyBelow(bounds, nearest->at.squared)) {
+      order = larger(order, discs.squaredDistances(rough));
+      bounds = direction.squaredNorm() > 0.0F ? larger(order, discs.squaredDistancesAlong(direction, rough))
+                                              : closerBounds<K>(corners, node, discs, order, nearest->at.squared);
+    }
+    // Of equally near triangles the first counts: the order must not depend on the direction.
+    const NearChildren near(order, bounds, nearest->at.squared);
     for (int i = 0; i < near.count(); ++i) {
-      stack_.push(near.bound(i), near.child(i));
+      stack_.push(bounds[near.slot(i)], node.children[near.slot(i)]);
     }
     beyond = std::min(beyond, double(near.leastLeftOut()));
   }
   return nearest->element < 0 ? beyond : nearest->at.squared;
 }
 
-//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
-//! above the limit are rough.
+//! Closer ones in place of bounds [m^2] that are below the limit, but for triangles: those are tested as fast
+//! themselves.
 template <int K>
-FourFloats MeshSearch::boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box,
-                                const Eigen::Vector3f& direction, int node, double limit) const {
-  const FourFloats by_boxes = surface_.tree()[node].squaredDistances(box);
-  if (!(by_boxes[0] < limit || by_boxes[1] < limit || by_boxes[2] < limit || by_boxes[3] < limit)) {
-    return by_boxes;
-  }
-  const DiscNode& discs = surface_.discs(node);
-  FourFloats bounds = larger(by_boxes, discs.squaredDistances(rough));
-  if (direction.squaredNorm() > 0.0F) {
-    return larger(bounds, discs.squaredDistancesAlong(direction, rough));
-  }
+FourFloats MeshSearch::closerBounds(const Corners<K>& corners, const BoxNode& node, const DiscNode& discs,
+                                    FourFloats bounds, double limit) {
   for (int slot = 0; slot < 4; ++slot) {
-    if (surface_.tree()[node].children[slot] >= 0 && bounds[slot] < limit) {
+    if (node.children[slot] >= 0 && bounds[slot] < limit) {
       const double closer = discs.squaredDistance<K>(slot, corners);
       bounds[slot] = std::max(bounds[slot], static_cast<float>(closer) * (1.0F - 1e-6F));
     }

@@ -26,9 +26,9 @@ struct MeshPlace {
 
 //! Searches the points of an object that are nearest to, or deepest in, one surface.
 //!
-//! Outside, the surface's tree is searched for each element that can be near enough, as far as is known of it from calls
-//! before. An object is inside if it crosses the surface, or if one of its
-//! pieces does not but has a point inside; then its deepest point is searched, triangle by triangle (ElementDepth).
+//! Outside, the surface's tree is searched for each element that can be near enough, as far as is known of it from
+//! calls before. An object is inside if it crosses the surface, or if one of its pieces does not but has a point
+//! inside; then its deepest point is searched, triangle by triangle (ElementDepth).
 class MeshSearch {
  public:
   explicit MeshSearch(const MeshPart& part) : surface_(part), depth_(surface_) {}
@@ -72,8 +72,8 @@ class MeshSearch {
   template <int K>
   double search(int element, const Nearest& known, Nearest* nearest);
   template <int K>
-  FourFloats boundsOf(const Corners<K>& corners, const FloatElement<K>& rough, const Box& box,
-                      const Eigen::Vector3f& direction, int node, double limit) const;
+  static FourFloats closerBounds(const Corners<K>& corners, const BoxNode& node, const DiscNode& discs,
+                                 FourFloats bounds, double limit);
 
   bool pieceInside(int certified_piece);
   MeshPlace deepest(double known_depth);
@@ -93,7 +93,7 @@ class MeshSearch {
   ElementDepth depth_;
   ObjectTree* object_ = nullptr;
   MovingBounds* bounds_ = nullptr;
-  SearchStack<int> stack_;  // nodes, or leaves as ~index
+  SearchStack<int> stack_;             // nodes, or leaves as ~index
   std::vector<SurfacePoint> samples_;  // of the object's points
   std::vector<int> sampled_;           // in which round
   int round_ = 0;

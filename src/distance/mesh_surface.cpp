@@ -98,9 +98,10 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough)
     }
     const FourFloats by_boxes = tree_[entry.what].squaredDistances(box);
     const FourFloats by_discs = discs_[entry.what].squaredDistances(element);
-    const NearChildren near(tree_[entry.what], larger(by_boxes, by_discs), least);
+    const FourFloats bounds = larger(by_boxes, by_discs);
+    const NearChildren near(bounds, bounds, least);
     for (int i = 0; i < near.count(); ++i) {
-      stack.push(near.bound(i), near.child(i));
+      stack.push(bounds[near.slot(i)], tree_[entry.what].children[near.slot(i)]);
     }
   }
   if (found.triangle < 0 && hint >= 0) {  // rounding, where the hint is as near as can be

@@ -26,6 +26,7 @@ class MovingBounds {
   void reset(int elements) {
     bounds_.assign(elements, -INFINITY);
     planes_.assign(elements, Plane());
+    least_ = -INFINITY;
   }
 
   //! @param step [m] no point has moved farther since the last call
@@ -35,6 +36,10 @@ class MovingBounds {
   }
 
   double of(int element) const { return bounds_[element] - travel_; }
+
+  //! Of all elements, as known at the last call of findLeast().
+  double least() const { return least_ - travel_; }
+  void findLeast() { least_ = *std::min_element(bounds_.begin(), bounds_.end()); }
 
   //! @param bound [m] of the element, where it is now
   void set(int element, double bound) { bounds_[element] = bound + travel_; }
@@ -67,11 +72,12 @@ class MovingBounds {
   double reserve() const { return reserve_; }
 
  private:
-  static constexpr double kHorizon = 16.0;        // calls
-  static constexpr double kLargestReserve = 0.1;  // m
+  static constexpr double kHorizon = 8.0;          // calls
+  static constexpr double kLargestReserve = 0.02;  // m
 
   std::vector<double> bounds_;  // m, as they were before anything moved
   std::vector<Plane> planes_;   // of the elements; `beyond` as before anything moved
+  double least_ = -INFINITY;    // m, the same of all
   double travel_ = 0.0;         // m
   double reserve_ = 0.0;
 };
