@@ -54,10 +54,22 @@ struct Box {
   }
 };
 
+template <std::size_t N>
+Box boxAround(const std::array<Vector3, N>& points) {
+  Box box;
+  for (const Vector3& point : points) {
+    box.include(point);
+  }
+  return box;
+}
+
 //! Four numbers of single precision in one register.
 typedef float FourFloats __attribute__((vector_size(4 * sizeof(float))));
 
 inline FourFloats larger(const FourFloats& a, const FourFloats& b) { return a > b ? a : b; }
+inline bool anyBelow(const FourFloats& a, double limit) {
+  return a[0] < limit || a[1] < limit || a[2] < limit || a[3] < limit;
+}
 inline FourFloats absolute(const FourFloats& a) { return larger(a, -a); }
 
 //! A node's four children, their boxes side by side. A child is a node (0 or more), a leaf (~index), or none.
@@ -106,6 +118,17 @@ struct BoxNode {
     }
     return sum * (1.0F - 1e-6F);  // rounding
   }
+
+  //! Upper bounds [m] of how far the children reach along a unit vector; not a number where there is none.
+  FourFloats heightsAlong(const Eigen::Vector3f& normal) const {
+    FourFloats sum = {}, size = {};
+    for (int k = 0; k < 3; ++k) {
+      const FourFloats highest = normal[k] * (normal[k] > 0.0F ? high[k] : low[k]);
+      sum += highest;
+      size += absolute(highest);
+    }
+    return sum + 1e-6F * size;  // rounding
+  }
 };
 
 //! A tree of boxes with four children a node; node 0 is the root.
@@ -114,30 +137,31 @@ using BoxTree = std::vector<BoxNode>;
 //! Over boxes of leaves, split where the surface area heuristic is least.
 BoxTree buildBoxTree(const std::vector<Box>& leaves);
 
-//! The children of a node in the order of their bounds, the farthest first; those not below the limit are left out.
+//! The children of a node in the order of rough bounds, the farthest first; those whose bounds are not below the limit
+//! are left out.
 class NearChildren {
  public:
-  NearChildren(const BoxNode& node, const FourFloats& bounds, double limit) {
+  NearChildren(const FourFloats& rough, const FourFloats& bounds, double limit) {
     for (int slot = 0; slot < 4; ++slot) {
       if (bounds[slot] < limit) {
         int at = count_++;
-        for (; at > 0 && bounds_[at - 1] < bounds[slot]; --at) {
-          bounds_[at] = bounds_[at - 1];
-          children_[at] = children_[at - 1];
+        for (; at > 0 && rough[slots_[at - 1]] < rough[slot]; --at) {
+          slots_[at] = slots_[at - 1];
         }
-        bounds_[at] = bounds[slot];
-        children_[at] = node.children[slot];
+        slots_[at] = slot;
+      } else {
+        least_left_out_ = std::min(least_left_out_, bounds[slot]);
       }
     }
   }
 
   int count() const { return count_; }
-  int child(int i) const { return children_[i]; }
-  float bound(int i) const { return bounds_[i]; }
+  int slot(int i) const { return slots_[i]; }
+  float leastLeftOut() const { return least_left_out_; }
 
  private:
-  std::array<float, 4> bounds_;
-  std::array<int, 4> children_;
+  std::array<int, 4> slots_;
+  float least_left_out_ = INFINITY;
   int count_ = 0;
 };
 

@@ -69,6 +69,20 @@ class DiscNode {
     return N == 3 ? larger(bounds, squared(overPlane(element.normal, arm) - element.rounding)) : bounds;
   }
 
+  //! Lower bounds [m^2] of the squared distances along a direction.
+  //! @param direction a unit vector, but for rounding
+  template <std::size_t N>
+  FourFloats squaredDistancesAlong(const Eigen::Vector3f& direction, const FloatElement<N>& element) const {
+    float lowest = INFINITY;
+    for (const Eigen::Vector3f& to_corner : element.arms) {
+      lowest = std::min(lowest, direction.dot(to_corner));
+    }
+    const std::array<FourFloats, 3> arm = {element.centre[0] - centre_[0], element.centre[1] - centre_[1],
+                                           element.centre[2] - centre_[2]};
+    const FourFloats gap = along(direction, arm) + lowest - reach(direction);
+    return squared(gap * (1.0F - 1e-6F) - (element.rounding + 4e-7F * element.radius));
+  }
+
   //! A closer lower bound [m^2] for one child that has a disc, otherwise 0. The plane through the element's nearest
   //! point to the disc's centre, square to the way between them, has the whole element on one side.
   template <int K>
@@ -90,10 +104,17 @@ class DiscNode {
  private:
   //! How far the discs are away from an element's plane.
   FourFloats overPlane(const Eigen::Vector3f& normal, const std::array<FourFloats, 3>& arm) const {
-    const FourFloats away = normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
-    const FourFloats cosine = normal[0] * normal_[0] + normal[1] * normal_[1] + normal[2] * normal_[2];
-    const FourFloats sine = squareRoot(larger(1.0F + 4e-6F - cosine * cosine, FourFloats{}));
-    return absolute(away) - radius_ * sine - half_thickness_;
+    return absolute(along(normal, arm)) - reach(normal);
+  }
+
+  static FourFloats along(const Eigen::Vector3f& direction, const std::array<FourFloats, 3>& arm) {
+    return direction[0] * arm[0] + direction[1] * arm[1] + direction[2] * arm[2];
+  }
+
+  //! How far the discs reach from their centres along a direction.
+  FourFloats reach(const Eigen::Vector3f& direction) const {
+    const FourFloats cosine = along(direction, normal_);
+    return radius_ * squareRoot(larger(1.0F + 4e-6F - cosine * cosine, FourFloats{})) + half_thickness_;
   }
 
   FourFloats squaredGaps(const std::array<FourFloats, 3>& arm, const FourFloats& along, const FourFloats& gap,

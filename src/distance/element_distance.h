@@ -1,5 +1,6 @@
 #pragma once
 
+#include "four.h"
 #include "triangle_geometry.h"
 
 namespace deformable_manipulation {
@@ -17,52 +18,68 @@ class ElementDistance {
  public:
   ElementDistance(const Corners<K>& element, const Corners<3>& triangle) : a_(element), b_(triangle) {}
 
-  //! Whether they are nearer than the nearest so far, which then is replaced.
+  //! Whether they are nearer than the nearest so far, which then is replaced. What is found does not depend on that.
   bool improve(ElementNearest* nearest) {
+    ElementNearest found{INFINITY};
+    if (!measure(nearest->squared, &found) || found.squared >= nearest->squared) {
+      return false;
+    }
+    *nearest = found;
+    return true;
+  }
+
+ private:
+  //! Returns false if they are seen to be at least so far apart.
+  bool measure(double squared_bound, ElementNearest* found) {
     const Vector3 normal = (b_[1] - b_[0]).cross(b_[2] - b_[0]);
     const double squared_normal = normal.squaredNorm();
     for (int i = 0; i < K; ++i) {
       above_[i] = normal.dot(a_[i] - b_[0]);
     }
-    if (apart(above_, squared_normal, nearest->squared)) {
+    const double gap = gapOf(above_);
+    if (gap > 0.0 && gap * gap >= squared_bound * squared_normal) {
       return false;
     }
-    const double before = nearest->squared;
     Vector3 own_normal = Vector3::Zero();
-    double squared_own = 0.0;
+    double squared_own = 0.0, own_gap = 0.0;
     if (K == 3) {
       own_normal = (a_[1] - a_[0]).cross(a_[K - 1] - a_[0]);
       squared_own = own_normal.squaredNorm();
       for (int j = 0; j < 3; ++j) {
         own_above_[j] = own_normal.dot(b_[j] - a_[0]);
       }
-      if (squared_own > 0.0 && apart(own_above_, squared_own, nearest->squared)) {
+      own_gap = gapOf(own_above_);
+      if (squared_own > 0.0 && own_gap > 0.0 && own_gap * own_gap >= squared_bound * squared_own) {
         return false;
       }
     }
-    if (pierces(a_, above_, b_, nearest)) {
+    if (pierces(a_, above_, b_, found)) {
       return true;
     }
-    cornersOverFace(normal, squared_normal, nearest);
+    cornersOverFace(normal, squared_normal, found);
+    if (gap > 0.0 && found->squared <= gap * gap / squared_normal) {  // as near as the planes let it be
+      return true;
+    }
     if (K == 3 && squared_own > 0.0) {
-      if (pierced(nearest)) {
+      if (pierced(found)) {
         return true;
       }
-      faceUnderCorners(own_normal, squared_own, nearest);
+      faceUnderCorners(own_normal, squared_own, found);
+      if (own_gap > 0.0 && found->squared <= own_gap * own_gap / squared_own) {
+        return true;
+      }
     }
-    edges(nearest);
-    return nearest->squared < before;
+    edges(found);
+    return true;
   }
 
- private:
   static constexpr int kEdges = K == 3 ? 3 : 1;
 
-  //! Whether all points are on one side of a plane, at least as far as the bound.
+  //! How far all points are on one side of a plane, in lengths of its normal; negative if they are on both.
   template <std::size_t N>
-  static bool apart(const std::array<double, N>& above, double squared_normal, double bound) {
+  static double gapOf(const std::array<double, N>& above) {
     const auto range = std::minmax_element(above.begin(), above.end());
-    const double gap = std::max(*range.first, -*range.second);
-    return gap > 0.0 && gap * gap >= bound * squared_normal;
+    return std::max(*range.first, -*range.second);
   }
 
   //! Whether the line from p to q goes through a triangle's face. Neighbours judge a shared edge alike, so that no line
@@ -138,17 +155,57 @@ class ElementDistance {
     return true;
   }
 
+  //! Each edge of the element with the triangle's three at a time.
   void edges(ElementNearest* nearest) const {
+    std::array<Four, 3> start, way;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 edge = b_[(k + 1) % 3] - b_[k];
+      for (int axis = 0; axis < 3; ++axis) {
+        start[axis].set(k, b_[k][axis]);
+        way[axis].set(k, edge[axis]);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {  // the fourth is the first again
+      start[axis].set(3, b_[0][axis]);
+      way[axis].set(3, way[axis][0]);
+    }
+    const Four squared_way = dot(way, way);
     for (int i = 0; i < kEdges; ++i) {
       const int j = (i + 1) % K;
       const Vector3 edge = a_[j] - a_[i];
+      Four s;
+      const Four squared = toEdges(a_[i], edge, start, way, squared_way, &s);
       for (int k = 0; k < 3; ++k) {
-        const NearestOfSegments found = nearestOfSegments(a_[i], edge, b_[k], b_[(k + 1) % 3] - b_[k]);
-        if (found.squared < nearest->squared) {
-          *nearest = {found.squared, onEdge(i, j, found.s)};
+        if (squared[k] < nearest->squared) {
+          *nearest = {squared[k], onEdge(i, j, s[k])};
         }
       }
     }
+  }
+
+  static Four dot(const std::array<Four, 3>& a, const std::array<Four, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+  static Four dot(const Vector3& a, const std::array<Four, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static Four clamped(const Four& value) { return smaller(larger(value, broadcast(0.0)), broadcast(1.0)); }
+
+  //! Squared distances [m^2] of the segment from p to p + d to those from q to q + e, which have a length.
+  //! @param s parameter in [0, 1] of the nearest points (Ericson, Real-Time Collision Detection, 5.1.9)
+  static Four toEdges(const Vector3& p, const Vector3& d, const std::array<Four, 3>& q, const std::array<Four, 3>& e,
+                      const Four& ee, Four* s) {
+    const std::array<Four, 3> r = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    const double a = d.squaredNorm();
+    const Four inverse_a = broadcast(a > 0.0 ? 1.0 / a : 0.0);
+    const Four f = dot(e, r), c = dot(d, r), b = dot(d, e);
+    const Four product = a * ee, determinant = product - b * b, least = 1e-14 * product;
+    const Four along = whereAbove(determinant, least, b * f - c * ee, broadcast(0.0));
+    *s = clamped(along / whereAbove(determinant, least, determinant, broadcast(1.0)));
+    const Four free = (b * *s + f) / ee, t = clamped(free);
+    const Four again = clamped((b * t - c) * inverse_a);
+    *s = whereAbove(absolute(free - t), broadcast(0.0), again, *s);
+    const std::array<Four, 3> gap = {r[0] + d[0] * *s - t * e[0], r[1] + d[1] * *s - t * e[1],
+                                     r[2] + d[2] * *s - t * e[2]};
+    return dot(gap, gap);
   }
 
   const Corners<K>& a_;

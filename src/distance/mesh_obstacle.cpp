@@ -46,18 +46,16 @@ class MeshObstacle::Search {
   }
 
   void minima(const ObjectView& object, Feature* nearest) {
-    for (Part& part : parts_) {
-      part.last.resize(object.copies);
-    }
-    object_.setElements(object);
+    prepare(object);
     for (int copy = 0; copy < object.copies; ++copy) {
       bring(object, copy);
       MeshPlace least;
       const Part* nearest_part = nullptr;
       for (Part& part : parts_) {
-        const MeshPlace found = part.search->minimum(object_, least.distance, guess(part, copy));
+        Known& known = part.known[copy];
+        const MeshPlace found = part.search->minimum(object_, least.distance, guess(part, copy), &known.bounds);
         if (found.known()) {
-          part.last[copy] = found;
+          known.nearest = found;
         }
         if (found.distance < least.distance) {
           least = found;
@@ -69,11 +67,10 @@ class MeshObstacle::Search {
   }
 
   void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
-    object_.setElements(object);
+    prepare(object);
     bring(object, 0);
     for (Part& part : parts_) {
-      part.last.resize(object.copies);
-      part.search->elements(object_, limit, guess(part, 0), &places_);
+      part.search->elements(object_, limit, guess(part, 0), &part.known[0].bounds, &places_);
       if (selection == Selection::LOCAL) {
         keepLocalMinima(object_, &places_);
       }
@@ -86,30 +83,56 @@ class MeshObstacle::Search {
   }
 
  private:
+  //! What is known of a copy and a part from the calls before.
+  struct Known {
+    MeshPlace nearest;
+    MovingBounds bounds;
+  };
   struct Part {
     std::unique_ptr<MeshSearch> search;
-    std::vector<MeshPlace> last;  // of each copy, the nearest
+    std::vector<Known> known;  // [copies]
   };
 
   //! What was nearest to this copy, or else to the one before.
   MeshPlace guess(const Part& part, int copy) const {
     for (int c = copy; c >= std::max(copy - 1, 0); --c) {
-      if (part.last[c].element < object_.size()) {
-        if (part.last[c].known()) {
-          return part.last[c];
-        }
+      if (part.known[c].nearest.known()) {
+        return part.known[c].nearest;
       }
     }
     return {};
   }
 
+  //! Takes the object's elements and makes room for its copies.
+  void prepare(const ObjectView& object) {
+    if (object_.setElements(object)) {
+      points_.clear();
+      for (Part& part : parts_) {
+        part.known.clear();
+      }
+    }
+    for (int copy = static_cast<int>(points_.size()); copy < object.copies; ++copy) {
+      points_.emplace_back(object.point_count, Vector3::Zero());
+      for (Part& part : parts_) {
+        part.known.emplace_back();
+        part.known.back().bounds.reset(object_.size());
+      }
+    }
+  }
+
   //! Takes a copy into the frame of the parts.
   void bring(const ObjectView& object, int copy) {
-    points_.resize(object.point_count);
+    double squared_step = 0.0;
     for (int i = 0; i < object.point_count; ++i) {
-      points_[i] = toLocal(object.point(copy, i));
+      Vector3& point = points_[copy][i];
+      const Vector3 before = point;
+      point = toLocal(object.point(copy, i));
+      squared_step = std::max(squared_step, (point - before).squaredNorm());
     }
-    object_.refit(points_);
+    for (Part& part : parts_) {
+      part.known[copy].bounds.move(std::sqrt(squared_step));
+    }
+    object_.setPoints(points_[copy]);
   }
 
   Vector3 toLocal(const Vector3& point) const { return rotation_.transpose() * (point - translation_) - middle_; }
@@ -122,7 +145,8 @@ class MeshObstacle::Search {
       feature.object_point += place.weights[k] * object.point(copy, place.vertices[k]);
     }
     const Vector3 local = toLocal(feature.object_point);
-    const SurfacePoint nearest = search.surface().nearest(local, place.triangle);
+    const SurfacePoint nearest =
+        place.there.triangle >= 0 ? place.there : search.surface().nearest(local, place.triangle);
     const Vector3 arm = rotation_ * (local - search.surface().position(nearest));
     feature.distance = nearest.distance;
     feature.obstacle_point = feature.object_point - arm;
@@ -139,7 +163,7 @@ class MeshObstacle::Search {
   Vector3 translation_ = Vector3::Zero();
   pbd::Twist velocity_;
   ObjectTree object_;
-  std::vector<Vector3> points_;  // m, of one copy
+  std::vector<std::vector<Vector3>> points_;  // m, of the copies, in the frame of the parts
   std::vector<MeshPlace> places_;
 };
 

@@ -12,8 +12,9 @@ constexpr double kLevel = 1e-9;  // m, differences of distance below it count as
 
 }  // namespace
 
-void MeshSearch::start(const ObjectTree& object) {
+void MeshSearch::start(ObjectTree& object, MovingBounds* bounds) {
   object_ = &object;
+  bounds_ = bounds;
   const std::size_t points = object.pointCount();
   if (samples_.size() != points) {
     samples_.assign(points, SurfacePoint());
@@ -32,11 +33,15 @@ const SurfacePoint& MeshSearch::cornerSample(int point, int hint) {
 }
 
 MeshPlace MeshSearch::placeAt(int element, const Weights& weights, double distance, int triangle) const {
-  return {distance, triangle, element, object_->element(element), weights};
+  return {distance, triangle, element, object_->element(element), weights, SurfacePoint()};
 }
 
-MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const MeshPlace& guess) {
-  start(object);
+MeshPlace MeshSearch::placeAt(int element, const Weights& weights, const SurfacePoint& there) const {
+  return {there.distance, there.triangle, element, object_->element(element), weights, there};
+}
+
+MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace& guess, MovingBounds* bounds) {
+  start(object, bounds);
   const double known_depth = std::max(0.0, -bound);
   double upper = bound;
   if (guess.known()) {
@@ -50,97 +55,140 @@ MeshPlace MeshSearch::minimum(const ObjectTree& object, double bound, const Mesh
     }
     upper = std::min(upper, there.distance);
   }
-  upper = std::max(upper, 0.0) + kSlack;
-  const Nearest found = nearestPair(0, upper * upper);
+  const Nearest found = nearestPair(std::max(upper, 0.0));
   if (found.element < 0) {
     return pieceInside(-1) ? deepest(known_depth) : MeshPlace();
   }
-  const MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+  MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   if (!surface_.closed()) {
     return place;
   }
   const bool touches = found.at.squared == 0.0;
   const Vector3 point = weighted<3>(object.corners<3>(place.element), place.weights);
-  if (touches || surface_.nearest(point, place.triangle).distance < 0.0 ||
-      pieceInside(object.pieceOf(place.vertices[0]))) {
+  place.there = surface_.nearest(point, place.triangle);
+  if (touches || place.there.distance < 0.0 || pieceInside(object.pieceOf(place.vertices[0]))) {
     const MeshPlace deep = deepest(known_depth);
     return deep.known() ? deep : place;
   }
   return place;
 }
 
-MeshSearch::Nearest MeshSearch::nearestPair(int object_root, double squared_bound) {
+//! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always
+//! the same one, whatever was known before.
+MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
   Nearest nearest;
-  nearest.at.squared = squared_bound;
-  if (object_->surface()) {
-    search<3>(object_root, &nearest);
-  } else {
-    search<2>(object_root, &nearest);
+  nearest.at.squared = (bound + kSlack) * (bound + kSlack);
+  if (bounds_->least() >= bound + kSlack) {
+    return nearest;
+  }
+  for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
+    if (bounds_->of(element) < bound + kSlack &&
+        !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
+      Nearest known;
+      known.direction = bounds_->normal(element);
+      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), known);
+      if (found.at.squared < nearest.at.squared) {
+        nearest = found;
+        bound = std::sqrt(found.at.squared);
+      } else if (found.element >= 0 && found.at.squared > (bound + kSlack) * (bound + kSlack)) {
+        bounds_->set(element, separate(found));  // no plane spares those as near as the nearest
+      }
+    }
+  }
+  if (nearest.element < 0) {
+    bounds_->findLeast();
   }
   return nearest;
 }
 
+//! The nearest pair of one element, if it is not farther apart than the reach [m].
+//! @param known a pair of it, which need not be compared again, or none
+MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach, const Nearest& known) {
+  Nearest nearest;
+  nearest.at.squared = reach * reach;
+  const double lowest = object_->surface() ? search<3>(element, known, &nearest) : search<2>(element, known, &nearest);
+  bounds_->set(element, std::sqrt(lowest));
+  return nearest;
+}
+
+//! The unit vector from the surface towards the element, or zero where they touch.
+Vector3 MeshSearch::towards(const Nearest& pair) const {
+  const Vector3 point = weighted<3>(object_->corners<3>(pair.element), pair.at.weights);
+  const Corners<3> triangle = surface_.corners(pair.triangle);
+  return (point - weighted<3>(triangle, nearestOnTriangle(point, triangle).weights)).normalized();
+}
+
+//! A plane through the nearest point of the surface, square to the way to the element, or as far behind it as needed.
+MovingBounds::Plane MeshSearch::separate(const Nearest& nearest) {
+  const Corners<3> corners = object_->corners<3>(nearest.element);
+  MovingBounds::Plane plane;
+  plane.normal = towards(nearest);
+  const double lowest = plane.normal.dot(weighted<3>(corners, nearest.at.weights)) - std::sqrt(nearest.at.squared);
+  plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), INFINITY);
+  plane.beyond = INFINITY;
+  if (plane.height > lowest + kSlack) {
+    plane.beyond = std::sqrt(nearest.at.squared) + bounds_->reserve();
+    plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), plane.beyond * plane.beyond);
+  }
+  plane.height += kSlack;
+  return plane;
+}
+
+//! Returns a lower bound [m^2] of the element's squared distance.
 template <int K>
-void MeshSearch::search(int object_root, Nearest* nearest) {
-  stack_.push(0.0F, {object_root, 0});
+double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
+  const Corners<K> corners = object_->corners<K>(element);
+  const Box box = boxAround(corners);
+  const FloatElement<K> rough(corners);
+  Eigen::Vector3f direction = known.direction.cast<float>();
+  double beyond = INFINITY;  // m^2, least bound of what has been left out
+  stack_.push(0.0F, 0);
   while (!stack_.empty()) {
     const auto entry = stack_.pop();
     if (entry.bound >= nearest->at.squared) {
       continue;
     }
-    const Pair pair = entry.what;
-    if (pair.object >= 0 || pair.surface >= 0) {
-      expand<K>(pair, nearest->at.squared);
+    if (entry.what < 0) {
+      const int triangle = ~entry.what;
+      if (triangle == known.triangle) {
+        if (known.at.squared < nearest->at.squared) {
+          *nearest = known;  // found again
+        }
+      } else if (ElementDistance<K>(corners, surface_.corners(triangle)).improve(&nearest->at)) {
+        nearest->element = element;
+        nearest->triangle = triangle;
+        direction = towards(*nearest).cast<float>();
+      }
+      beyond = nearest->at.squared;
       continue;
     }
-    const Corners<K> element = object_->corners<K>(~pair.object);
-    const Corners<3> triangle = surface_.corners(~pair.surface);
-    if (ElementDistance<K>(element, triangle).improve(&nearest->at)) {
-      nearest->element = ~pair.object;
-      nearest->triangle = ~pair.surface;
+    const BoxNode& node = surface_.tree()[entry.what];
+    const DiscNode& discs = surface_.discs(entry.what);
+    FourFloats order = node.squaredDistances(box);
+    FourFloats bounds = order;
+    if (anyBelow(bounds, nearest->at.squared)) {
+      order = larger(order, discs.squaredDistances(rough));
+      bounds = direction.squaredNorm() > 0.0F ? larger(order, discs.squaredDistancesAlong(direction, rough))
+                                              : closerBounds<K>(corners, node, discs, order, nearest->at.squared);
     }
+    // Of equally near triangles the first counts: the order must not depend on the direction.
+    const NearChildren near(order, bounds, nearest->at.squared);
+    for (int i = 0; i < near.count(); ++i) {
+      stack_.push(bounds[near.slot(i)], node.children[near.slot(i)]);
+    }
+    beyond = std::min(beyond, double(near.leastLeftOut()));
   }
+  return nearest->element < 0 ? beyond : nearest->at.squared;
 }
 
-//! Pushes the pairs of one's children with the other; of two nodes the larger one is opened.
+//! Closer ones in place of bounds [m^2] that are below the limit, but for triangles: those are tested as fast
+//! themselves.
 template <int K>
-void MeshSearch::expand(const Pair& pair, double limit) {
-  if (pair.object < 0) {
-    expandSurface(pair, boundsOf<K>(~pair.object, pair.surface, limit), limit);
-    return;
-  }
-  const BoxNode& of_object = object_->tree()[pair.object];
-  if (pair.surface >= 0 && surface_.tree()[pair.surface].box.extent() >= of_object.box.extent()) {
-    expandSurface(pair, surface_.tree()[pair.surface].squaredDistances(of_object.box), limit);
-    return;
-  }
-  const Box of_surface = pair.surface < 0 ? surface_.boxOf(~pair.surface) : surface_.tree()[pair.surface].box;
-  const NearChildren near(of_object, of_object.squaredDistances(of_surface), limit);
-  for (int i = 0; i < near.count(); ++i) {
-    stack_.push(near.bound(i), {near.child(i), pair.surface});
-  }
-}
-
-void MeshSearch::expandSurface(const Pair& pair, const FourFloats& bounds, double limit) {
-  const NearChildren near(surface_.tree()[pair.surface], bounds, limit);
-  for (int i = 0; i < near.count(); ++i) {
-    stack_.push(near.bound(i), {pair.object, near.child(i)});
-  }
-}
-
-//! Lower bounds [m^2] of the squared distances between an element and the children of a node of the surface; those
-//! above the limit are rough.
-template <int K>
-FourFloats MeshSearch::boundsOf(int element, int node, double limit) const {
-  const Corners<K> corners = object_->corners<K>(element);
-  const FourFloats by_boxes = surface_.tree()[node].squaredDistances(object_->boxOf(element));
-  if (!(by_boxes[0] < limit || by_boxes[1] < limit || by_boxes[2] < limit || by_boxes[3] < limit)) {
-    return by_boxes;
-  }
-  FourFloats bounds = larger(by_boxes, surface_.discs(node).squaredDistances(FloatElement<K>(corners)));
+FourFloats MeshSearch::closerBounds(const Corners<K>& corners, const BoxNode& node, const DiscNode& discs,
+                                    FourFloats bounds, double limit) {
   for (int slot = 0; slot < 4; ++slot) {
-    if (bounds[slot] < limit) {
-      const double closer = surface_.discs(node).squaredDistance<K>(slot, corners);
+    if (node.children[slot] >= 0 && bounds[slot] < limit) {
+      const double closer = discs.squaredDistance<K>(slot, corners);
       bounds[slot] = std::max(bounds[slot], static_cast<float>(closer) * (1.0F - 1e-6F));
     }
   }
@@ -164,6 +212,7 @@ bool MeshSearch::pieceInside(int certified_piece) {
 MeshPlace MeshSearch::deepest(double least_depth) {
   MeshPlace best;
   best.distance = -least_depth;
+  object_->fit();
   descend(0, &best);
   return best.known() ? best : MeshPlace();
 }
@@ -224,7 +273,7 @@ MeshPlace MeshSearch::placeOfPoint(int point, const SurfacePoint& there) const {
   Weights weights = {0.0, 0.0, 0.0};
   const Triangle& vertices = object_->element(element);
   weights[std::find(vertices.begin(), vertices.end(), point) - vertices.begin()] = 1.0;
-  return placeAt(element, weights, there.distance, there.triangle);
+  return placeAt(element, weights, there);
 }
 
 MeshPlace MeshSearch::deepestOf(int element, double threshold) {
@@ -238,38 +287,55 @@ MeshPlace MeshSearch::deepestOf(int element, double threshold) {
   return found.triangle < 0 ? MeshPlace() : placeAt(element, found.weights, -found.depth, found.triangle);
 }
 
-void MeshSearch::elements(const ObjectTree& object, double limit, const MeshPlace& guess,
+void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& guess, MovingBounds* bounds,
                           std::vector<MeshPlace>* places) {
-  start(object);
-  const bool inside = surface_.closed() && minimum(object, 0.0, guess).distance <= 0.0;
+  start(object, bounds);
+  const bool inside = surface_.closed() && minimum(object, 0.0, guess, bounds).distance <= 0.0;
   places->assign(object.size(), MeshPlace());
   last_triangles_.resize(object.size(), -1);
   const double reach = std::max(limit, 0.0);
   for (int element = 0; element < object.size(); ++element) {
-    const FourFloats away = surface_.tree()[0].squaredDistances(object.boxOf(element));
-    if (*std::min_element(&away[0], &away[0] + 4) <= reach * reach) {
-      (*places)[element] = inside ? elementPlace(element, limit) : outsidePlace(element, limit);
+    if (!inside && bounds->of(element) < reach + kSlack) {
+      (*places)[element] = outsidePlace(element, limit);
+    } else if (inside && touchesBox(element, reach)) {
+      (*places)[element] = elementPlace(element, limit);
     }
   }
 }
 
-//! The nearest pair of one element, if it is not farther apart than the bound [m].
-MeshSearch::Nearest MeshSearch::nearestOfElement(int element, double bound) {
-  const int last = last_triangles_[element];
-  if (last >= 0) {
-    const Corners<3> corners = object_->corners<3>(element);  // of a segment: without an area
-    ElementNearest at{INFINITY};
-    ElementDistance<3>(corners, surface_.corners(last)).improve(&at);
-    bound = std::min(bound, std::sqrt(at.squared));
+//! Compares the element and the triangle of a pair.
+void MeshSearch::improve(Nearest* pair) const {
+  const Corners<3> triangle = surface_.corners(pair->triangle);
+  if (object_->surface()) {
+    ElementDistance<3>(object_->corners<3>(pair->element), triangle).improve(&pair->at);
+  } else {
+    ElementDistance<2>(object_->corners<2>(pair->element), triangle).improve(&pair->at);
   }
-  bound += kSlack;
-  const Nearest found = nearestPair(~element, bound * bound);
-  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last;
+}
+
+//! Whether an element is not farther than the reach [m] from the boxes around the surface.
+bool MeshSearch::touchesBox(int element, double reach) const {
+  const FourFloats away = surface_.tree()[0].squaredDistances(boxAround(object_->corners<3>(element)));
+  return *std::min_element(&away[0], &away[0] + 4) <= reach * reach;
+}
+
+//! The nearest pair of one element, if it is not farther apart than the bound [m].
+MeshSearch::Nearest MeshSearch::nearestWithin(int element, double bound) {
+  Nearest last;
+  last.element = element;
+  last.triangle = last_triangles_[element];
+  if (last.triangle >= 0) {
+    improve(&last);
+    last.direction = towards(last);
+  }
+  const double reach = std::min(bound + bounds_->reserve(), std::sqrt(last.at.squared));
+  const Nearest found = nearestOf(element, reach + kSlack, last);
+  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last.triangle;
   return found;
 }
 
 MeshPlace MeshSearch::outsidePlace(int element, double limit) {
-  const Nearest found = nearestOfElement(element, std::max(limit, 0.0));
+  const Nearest found = nearestWithin(element, std::max(limit, 0.0));
   const MeshPlace place =
       found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
@@ -282,7 +348,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
   }
   MeshPlace crossing;
   if (least >= 0.0) {
-    const Nearest found = nearestOfElement(element, std::max(std::min(limit, least), 0.0));
+    const Nearest found = nearestWithin(element, std::max(std::min(limit, least), 0.0));
     if (found.element < 0) {
       return {};
     }
@@ -323,13 +389,13 @@ double MeshSearch::lowestPossible(int element, double* least) {
 //! so, too.
 MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   Weights mean = {0.0, 0.0, 0.0};
-  int count = 0;
+  int count = 0, alone = -1;
   for (int k = 0; k < object_->cornerCount(); ++k) {
     const Vector3& corner = object_->point(place.vertices[k]);
     if (surface_.distanceToPlane(place.triangle, corner) <= std::fabs(place.distance) + kLevel &&
         cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kLevel) {
       mean[k] += 1.0;
-      ++count;
+      alone = ++count == 1 ? k : -1;
     }
   }
   if (count == 1) {
@@ -339,13 +405,15 @@ MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   if (count == 0) {
     return place;
   }
+  if (alone >= 0 && place.weights[alone] == 1.0) {
+    return placeAt(place.element, place.weights, cornerSample(place.vertices[alone], place.triangle));
+  }
   for (double& weight : mean) {
     weight /= count;
   }
   const Vector3 point = weighted<3>(object_->corners<3>(place.element), mean);
   const SurfacePoint there = surface_.nearest(point, place.triangle);
-  return there.distance <= place.distance + kLevel ? placeAt(place.element, mean, there.distance, there.triangle)
-                                                   : place;
+  return there.distance <= place.distance + kLevel ? placeAt(place.element, mean, there) : place;
 }
 
 }  // namespace distance

@@ -15,7 +15,7 @@ MeshSurface::MeshSurface(const MeshPart& part)
     : vertices_(part.vertices), triangles_(part.triangles), closed_(part.closed) {
   std::vector<Box> leaves(triangles_.size());
   for (std::size_t t = 0; t < leaves.size(); ++t) {
-    leaves[t] = boxOf(static_cast<int>(t));
+    leaves[t] = boxAround(corners(static_cast<int>(t)));
   }
   tree_ = buildBoxTree(leaves);
   sortLikeTree();
@@ -98,9 +98,10 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough)
     }
     const FourFloats by_boxes = tree_[entry.what].squaredDistances(box);
     const FourFloats by_discs = discs_[entry.what].squaredDistances(element);
-    const NearChildren near(tree_[entry.what], larger(by_boxes, by_discs), least);
+    const FourFloats bounds = larger(by_boxes, by_discs);
+    const NearChildren near(bounds, bounds, least);
     for (int i = 0; i < near.count(); ++i) {
-      stack.push(near.bound(i), near.child(i));
+      stack.push(bounds[near.slot(i)], tree_[entry.what].children[near.slot(i)]);
     }
   }
   if (found.triangle < 0 && hint >= 0) {  // rounding, where the hint is as near as can be
@@ -111,6 +112,33 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough)
     found.distance = -found.distance;
   }
   return found;
+}
+
+double MeshSurface::heightAlong(const Vector3& normal, double lowest, const Box& box, double squared_reach) const {
+  double highest = lowest;
+  const Eigen::Vector3f along = normal.cast<float>();
+  SearchStack<int> stack;
+  stack.push(INFINITY, 0);
+  while (!stack.empty()) {
+    const SearchStack<int>::Entry entry = stack.pop();
+    if (entry.bound <= highest) {
+      continue;
+    }
+    if (entry.what < 0) {
+      for (const Vector3& corner : corners(~entry.what)) {
+        highest = std::max(highest, normal.dot(corner));
+      }
+      continue;
+    }
+    const BoxNode& node = tree_[entry.what];
+    const FourFloats away = node.squaredDistances(box), heights = node.heightsAlong(along);
+    for (int slot = 0; slot < 4; ++slot) {
+      if (node.children[slot] != BoxNode::kNone && away[slot] <= squared_reach && heights[slot] > highest) {
+        stack.push(heights[slot], node.children[slot]);
+      }
+    }
+  }
+  return highest;
 }
 
 Vector3 MeshSurface::pseudonormal(const SurfacePoint& place) const {

@@ -33,17 +33,14 @@ class MeshSurface {
     return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
   }
 
-  Box boxOf(int triangle) const {
-    Box box;
-    for (const Vector3& corner : corners(triangle)) {
-      box.include(corner);
-    }
-    return box;
-  }
-
   //! @param hint a triangle probably near, or -1; for speed only
   //! @param enough [m] a place not farther than this will do, though it may not be the nearest
   SurfacePoint nearest(const Vector3& point, int hint = -1, double enough = -1.0) const;
+
+  //! How far [m] triangles reach along a unit vector.
+  //! @param lowest [m] the result is not less
+  //! @param squared_reach [m^2] triangles farther than that from the box need not count
+  double heightAlong(const Vector3& normal, double lowest, const Box& box, double squared_reach) const;
 
   //! The distance [m] of a point to one of the triangles.
   double distanceTo(int triangle, const Vector3& point) const {

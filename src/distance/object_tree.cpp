@@ -10,9 +10,9 @@ constexpr double kUnseen = -1.0;
 
 }  // namespace
 
-void ObjectTree::setElements(const ObjectView& object) {
+bool ObjectTree::setElements(const ObjectView& object) {
   if (same(object)) {
-    return;
+    return false;
   }
   surface_ = object.triangles != nullptr;
   elements_.clear();
@@ -33,6 +33,7 @@ void ObjectTree::setElements(const ObjectView& object) {
   }
   tree_ = buildBoxTree(boxes_);
   chooseRepresentatives(places);
+  return true;
 }
 
 void ObjectTree::chooseRepresentatives(const std::vector<Vector3>& places) {
@@ -124,13 +125,16 @@ int ObjectTree::spread(int start, int axis, std::vector<Vector3>* places) {
   return queue_.back();
 }
 
-void ObjectTree::refit(const std::vector<Vector3>& points) {
-  points_ = &points;
+void ObjectTree::fit() {
+  if (fitted_) {
+    return;
+  }
+  fitted_ = true;
   const int corners = cornerCount();
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     boxes_[e] = Box();
     for (int k = 0; k < corners; ++k) {
-      boxes_[e].include(points[elements_[e][k]]);
+      boxes_[e].include(point(elements_[e][k]));
     }
   }
   for (std::size_t n = tree_.size(); n-- > 0;) {  // children come after their parents

@@ -9,21 +9,27 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! The object's segments or triangles with a tree of boxes over them, which is refitted to each copy. How it branches
-//! depends on what is connected with what alone.
+//! The object's segments or triangles with a tree of boxes over them, which is fitted to the copies that need it.
+//! How it branches depends on what is connected with what alone.
 class ObjectTree {
  public:
   //! Takes the object's elements, if they are not the ones it has.
-  void setElements(const ObjectView& object);
+  //! @return whether they are others
+  bool setElements(const ObjectView& object);
 
   //! @param points [m] of one copy; used until the next call
-  void refit(const std::vector<Vector3>& points);
+  void setPoints(const std::vector<Vector3>& points) {
+    points_ = &points;
+    fitted_ = false;
+  }
+
+  //! Fits the tree's boxes to the points, if they are not.
+  void fit();
 
   bool surface() const { return surface_; }
   int pointCount() const { return static_cast<int>(piece_of_.size()); }
   int size() const { return static_cast<int>(elements_.size()); }
-  const BoxTree& tree() const { return tree_; }
-  const Box& boxOf(int element) const { return boxes_[element]; }
+  const BoxTree& tree() const { return tree_; }  //!< needs fit()
   const Vector3& point(int index) const { return (*points_)[index]; }
 
   //! Geometry points of an element; those of a segment: start, end, end.
@@ -66,6 +72,7 @@ class ObjectTree {
   std::vector<int> first_of_, elements_of_;
   std::vector<int> queue_;
   const std::vector<Vector3>* points_ = nullptr;
+  bool fitted_ = false;
 };
 
 }  // namespace distance

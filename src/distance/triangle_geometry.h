@@ -80,36 +80,5 @@ Vector3 nearestOnElement(const Vector3& point, const Corners<K>& element) {
   return element[0] + std::min(std::max(parameter, 0.0), 1.0) * along;
 }
 
-//! Parameters in [0, 1] of the nearest points of two segments.
-struct NearestOfSegments {
-  double squared;  //!< [m^2]
-  double s, t;
-};
-
-//! Ericson, Real-Time Collision Detection, 5.1.9; segments may have no length.
-inline NearestOfSegments nearestOfSegments(const Vector3& p, const Vector3& d, const Vector3& q, const Vector3& e) {
-  const auto clamped = [](double value) { return std::min(std::max(value, 0.0), 1.0); };
-  const Vector3 r = p - q;
-  const double a = d.dot(d), ee = e.dot(e), f = e.dot(r), c = d.dot(r), b = d.dot(e);
-  double s = 0.0, t = 0.0;
-  if (a > 0.0 && ee > 0.0) {
-    const double determinant = a * ee - b * b;
-    s = determinant > 1e-14 * a * ee ? clamped((b * f - c * ee) / determinant) : 0.0;
-    t = (b * s + f) / ee;
-    if (t < 0.0) {
-      t = 0.0;
-      s = clamped(-c / a);
-    } else if (t > 1.0) {
-      t = 1.0;
-      s = clamped((b - c) / a);
-    }
-  } else if (a > 0.0) {
-    s = clamped(-c / a);
-  } else if (ee > 0.0) {
-    t = clamped(f / ee);
-  }
-  return {(r + s * d - t * e).squaredNorm(), s, t};
-}
-
 }  // namespace distance
 }  // namespace deformable_manipulation

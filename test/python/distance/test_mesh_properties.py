@@ -90,6 +90,28 @@ def test_results_do_not_depend_on_calls_before(seed, features):
 
 
 @MANY
+@given(seed=seeds, step=st.sampled_from([1e-4, 3e-3, 0.05]))
+def test_results_do_not_depend_on_the_way_there(seed, step):
+    rng = np.random.default_rng(seed)
+    mesh, points, triangles = scene(seed)
+    copies = points + rng.normal(scale=0.1, size=(3, 1, 3))
+    obstacle = _distance.MeshObstacle(*mesh)
+    used = _distance.MinimumDistance([obstacle], 0.0, BAND, "elements")
+    way = rng.normal(size=3)
+    for _ in range(12):
+        copies = copies + step * (way + 0.3 * rng.normal(size=copies.shape))
+        pose = step * rng.normal(size=3), Rotation.from_rotvec(step * rng.normal(size=3)).as_quat()
+        obstacle.set_pose(*pose)
+        found = fields(used, copies, triangles)
+    fresh = _distance.MinimumDistance(
+        [_distance.MeshObstacle(*mesh, *pose)], 0.0, BAND, "elements"
+    )
+    alone = fields(fresh, copies, triangles)
+    for name in reference.FIELDS[:-1]:
+        np.testing.assert_array_equal(found[name], alone[name], err_msg=name)
+
+
+@MANY
 @given(seed=seeds, size=st.sampled_from([1e-3, 1.0, 1e4]))
 def test_moving_everything_rigidly_changes_no_distance(seed, size):
     rng = np.random.default_rng(seed)
