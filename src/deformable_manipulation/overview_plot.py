@@ -17,6 +17,7 @@ _VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
 _AROUND = 0.6  # in, titles and labels
 _STYLES = ("-", "--", "-.", ":")
 _SNAPSHOTS = 4
+_APART = 0.06  # of the run's length: nearer snapshots would hide each other
 
 
 def plot_overview(
@@ -28,7 +29,7 @@ def plot_overview(
     """Overlaid snapshots above distance, errors and margins over time.
 
     :param times: of the snapshots [s]; None: the start, the lowest distance, the largest error, and
-        halfway to the end.
+        others between.
     """
     chosen = sorted(times) if times else snapshot_times(run)
     with rc_context(STYLE):
@@ -62,16 +63,21 @@ def plot_overview(
 
 
 def snapshot_times(run: RunData) -> List[float]:
-    """Times [s] that show what a run is about, in their order."""
+    """Times [s] that show what a run is about, in their order and well apart."""
     time = run.time
-    moments = {float(time[0]), float(time[len(time) // 2])}
-    if np.isfinite(run.distance).any():
-        moments.add(float(time[np.nanargmin(run.distance)]))
+    moments = [float(time[0])]
     errors = [(np.nanmax(each.error_norm), each) for each in run.assistants if len(each.time)]
     if errors:
         _, worst = max(errors, key=lambda pair: pair[0])
-        moments.add(float(worst.time[np.nanargmax(worst.error_norm)]))
-    return sorted(round(moment, 1) for moment in moments)[:_SNAPSHOTS]
+        moments.append(float(worst.time[np.nanargmax(worst.error_norm)]))
+    if np.isfinite(run.distance).any():
+        moments.append(float(time[np.nanargmin(run.distance)]))
+    moments += [float(time[len(time) * quarter // 4]) for quarter in (2, 1, 3)]
+    chosen = []
+    for moment in moments:
+        if all(abs(moment - other) > _APART * np.ptp(time) for other in chosen):
+            chosen.append(moment)
+    return sorted(round(moment, 1) for moment in chosen[:_SNAPSHOTS])
 
 
 def _plot_distance(axis, run: RunData) -> None:
@@ -81,7 +87,8 @@ def _plot_distance(axis, run: RunData) -> None:
     if run.offset is not None:
         axis.axhline(run.offset, color="black", linestyle="--", linewidth=0.8)
         top = DISTANCE_RANGE * run.offset
-        if np.isfinite(distance).any() and 0 < top < np.nanmax(distance):
+        known = np.isfinite(distance).any()
+        if known and max(0.0, np.nanmin(distance)) < top < np.nanmax(distance):
             axis.set_ylim(top=top)
 
 

@@ -150,7 +150,7 @@ def _plot_distance(axis: Axes, run: RunData) -> bool:
         axis.axhline(run.offset, color=BLACK, linestyle="--", linewidth=0.8, label=label)
         violated = _mark_violation(axis, run.time, distance, run.offset)
         top = DISTANCE_RANGE * run.offset
-        if 0 < top < np.nanmax(distance):
+        if max(0.0, np.nanmin(distance)) < top < np.nanmax(distance):
             axis.set_ylim(top=top)
     _legend_above(axis)
     return violated

@@ -32,6 +32,13 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 1
     for note in run.notes:
         print(f"note: {note}", file=sys.stderr)
+    if arguments.times and max(arguments.times) > run.time[-1] + 1e-9:
+        print(
+            f"plot_run: --times: {max(arguments.times):g} s is after the end of the run; "
+            f"allowed: 0 to {run.time[-1]:g} s",
+            file=sys.stderr,
+        )
+        return 1
     figures = _draw(run, arguments.times, arguments.show)
     try:
         _save(run, figures, arguments.output, arguments.format)

@@ -4,6 +4,7 @@ import argparse
 import csv
 import dataclasses
 import json
+import re
 import sys
 import time
 from pathlib import Path
@@ -64,8 +65,12 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     add_scenario_arguments(parser)
     defaults = Ranges()
-    parser.add_argument("--runs", type=_positive(int), default=100, metavar="N")
-    parser.add_argument("--seed", type=_natural, default=0, metavar="S", help="0 or more")
+    parser.add_argument(
+        "--runs", type=_positive(int), default=100, metavar="N", help="how many (%(default)s)"
+    )
+    parser.add_argument(
+        "--seed", type=_natural, default=0, metavar="S", help="0 or more (%(default)s)"
+    )
     parser.add_argument(
         "--speed",
         type=_positive(float),
@@ -111,7 +116,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--workers", type=_positive(int), metavar="N", help="processes (default: one per core)"
     )
     parser.add_argument(
-        "--cluster", metavar="ADDRESS", help="of a Dask scheduler whose workers do the runs"
+        "--cluster",
+        type=_address,
+        metavar="tcp://HOST:PORT",
+        help="a Dask scheduler whose workers do the runs",
     )
     parser.add_argument(
         "--no-safety", dest="safety", action="store_false", help="switch the safety filter off"
@@ -138,6 +146,12 @@ def _natural(text):
     if value < 0:
         raise argparse.ArgumentTypeError(f"'{text}': must be 0 or more")
     return value
+
+
+def _address(text):
+    if not re.fullmatch(r"(\w+://)?[^\s:/]+:\d+", text):
+        raise argparse.ArgumentTypeError(f"'{text}': must be of the form tcp://HOST:PORT")
+    return text
 
 
 def _factor(text):

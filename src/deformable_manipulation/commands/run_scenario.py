@@ -35,6 +35,8 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except (ScenarioError, RecordingError) as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt as interrupt:
+        return exit_status(interrupt)  # nothing has been recorded yet
     except (ValueError, RuntimeError) as error:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)

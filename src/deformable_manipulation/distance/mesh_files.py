@@ -82,6 +82,9 @@ def _fault(vertices: np.ndarray, triangles: np.ndarray) -> str:
         return text.format(index, *vertices[index], LARGEST_COORDINATE)
     if triangles.min() < 0 or triangles.max() >= len(vertices):
         return "a triangle refers to a vertex that there is not"
+    first, second, third = np.moveaxis(vertices[triangles], 1, 0)
+    if not np.cross(second - first, third - first).any():
+        return "no triangle in it has an area"
     return ""
 
 

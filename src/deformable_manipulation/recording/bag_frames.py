@@ -34,7 +34,8 @@ def read_bag_frames(path: Path) -> Frames:
 def _read_scenario(path: Path, reader: Reader) -> Scenario:
     types = get_typestore(Stores.ROS1_NOETIC)
     for connection, _, data in reader.messages(_connections(reader, STRING)):
-        if connection.topic.endswith("/" + _RUN_INFO):
+        # Recorded by a relative name, a topic has no slash.
+        if connection.topic.rpartition("/")[2] == _RUN_INFO:
             text = types.deserialize_ros1(data, STRING).data
             try:
                 return scenario_from_mapping(yaml.safe_load(text)["scenario"], path.parent)

@@ -1,6 +1,7 @@
 """Where the object and the agents of a recorded run were, now and then."""
 
 import os
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
@@ -49,7 +50,7 @@ def _read_folder(folder: Path) -> Frames:
         with np.load(str(path)) as states:
             arrays = {name: states[name] for name in states.files}
         times, points, agents = (arrays[name] for name in ("times", "points", "agents"))
-    except (OSError, ValueError, KeyError, EOFError) as error:
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise RunDataError(f"{path} cannot be read: {error}") from error
     if not len(times):
         raise RunDataError(f"{path} holds no frame")

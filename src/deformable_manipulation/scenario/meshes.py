@@ -34,7 +34,7 @@ class Mesh:
 class Scale:
     """[m per unit] along the three axes: three numbers, or one for all of them."""
 
-    _number = Number("m", above=0.0, at_most=LARGEST_COORDINATE)
+    _number = Number("m", at_least=1.0 / LARGEST_COORDINATE, at_most=LARGEST_COORDINATE)
     _numbers = Array(3, _number, "[x, y, z]")
     allowed = "{}, or a list [x, y, z] of them".format(_number.allowed)
 

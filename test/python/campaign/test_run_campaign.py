@@ -73,6 +73,7 @@ def test_an_older_campaign_is_not_overwritten(folder, capsys):
         (["--speed", "nan"], "must be more than 0"),
         (["--seed", "-1"], "must be 0 or more"),
         (["--material", "0.5"], "must be 1"),
+        (["--cluster", "nowhere"], "tcp://HOST:PORT"),
     ],
 )
 def test_wrong_arguments_are_refused(wrong, text, capsys):

@@ -102,3 +102,10 @@ def test_a_huge_file(write, monkeypatch):
     monkeypatch.setattr(mesh_files, "LARGEST_FILE", 10)
     with pytest.raises(MeshError, match="more than 10 bytes"):
         read_mesh(write(OBJ))
+
+
+def test_triangles_without_area_are_no_mesh(tmp_path):
+    path = tmp_path / "line.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    with pytest.raises(MeshError, match=r"line\.obj: no triangle in it has an area"):
+        read_mesh(path)

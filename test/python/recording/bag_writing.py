@@ -126,10 +126,10 @@ class BagWriter:
         message = self._message(OBJECT_STATE, cycle, reset_count, values)
         self.write(f"{namespace}/state", OBJECT_STATE, message)
 
-    def run_info(self, scenario):
+    def run_info(self, scenario, topic="/run_info"):
         text = yaml.safe_dump({"scenario": scenario_to_mapping(scenario)}, sort_keys=False)
         message = self.typestore.types["std_msgs/msg/String"](data=text)
-        self.write("/run_info", "std_msgs/msg/String", message)
+        self.write(topic, "std_msgs/msg/String", message)
 
     def cycle(self, cycle, **keywords):
         """The distances and the state of one controller."""

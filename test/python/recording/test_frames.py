@@ -26,11 +26,11 @@ def run_folder(tmp_path, scenario):
     return folder
 
 
-def write_bag(path, scenario, cycles, reset_count=0, info=True):
+def write_bag(path, scenario, cycles, reset_count=0, info="/run_info"):
     names = [agent.name for agent in scenario.agents]
     with BagWriter(path) as writer:
         if info:
-            writer.run_info(scenario)
+            writer.run_info(scenario, info)
         for run in range(reset_count + 1):
             for cycle in cycles:
                 record = make_record(scenario, cycle)
@@ -60,6 +60,12 @@ def test_a_bag_of_the_same_run_has_the_same(run_folder, scenario, tmp_path):
         np.testing.assert_allclose(getattr(bag, name), getattr(folder, name), atol=1e-6)
 
 
+@pytest.mark.parametrize("topic", ["run_info", "/left/run_info"])
+def test_the_scenario_is_found_whatever_the_namespace(scenario, tmp_path, topic):
+    write_bag(tmp_path / "run.bag", scenario, range(3), info=topic)
+    assert read_frames(read_run(tmp_path / "run.bag")).scenario == scenario
+
+
 def test_only_the_last_run_of_a_bag_counts(scenario, tmp_path):
     write_bag(tmp_path / "run.bag", scenario, range(0, CYCLES, 10), reset_count=1)
     frames = read_frames(read_run(tmp_path / "run.bag"))
@@ -68,7 +74,7 @@ def test_only_the_last_run_of_a_bag_counts(scenario, tmp_path):
 
 
 def test_a_bag_without_its_scenario_says_what_to_record(scenario, tmp_path):
-    write_bag(tmp_path / "run.bag", scenario, range(3), info=False)
+    write_bag(tmp_path / "run.bag", scenario, range(3), info=None)
     with pytest.raises(RunDataError, match="record:=true"):
         read_frames(read_run(tmp_path / "run.bag"))
 
@@ -95,3 +101,11 @@ def test_frames_are_at_the_scenario_s_record_rate(scenario, tmp_path):
     write_bag(tmp_path / "run.bag", scenario, range(CYCLES))
     frames = read_frames(read_run(tmp_path / "run.bag"))
     assert np.allclose(np.diff(frames.times), 10.0 / RATE)
+
+
+def test_frames_that_are_cut_off_are_told(run_folder):
+    run = read_run(run_folder)
+    path = run_folder / "states.npz"
+    path.write_bytes(path.read_bytes()[:-50])
+    with pytest.raises(RunDataError, match="cannot be read"):
+        read_frames(run)

@@ -143,3 +143,8 @@ def test_a_copy_of_the_folder_reads_the_same(run_folder, tmp_path):
     copy = read_run(tmp_path / "copy")
     assert copy.name == "copy"
     np.testing.assert_array_equal(copy.distance, read_run(run_folder).distance)
+
+
+def test_times_after_the_end_are_refused(run_folder, capsys):
+    assert main([str(run_folder), "--times", "500"]) == 1
+    assert "500 s is after the end of the run" in capsys.readouterr().err
