@@ -37,6 +37,10 @@ class ClosedLoop:
         self._points = self._simulation.points()
         self._stretch = StretchGauge(scenario.object)
 
+    def distance(self) -> float:
+        """Signed distance [m] of the object from the obstacles now; infinite where there are none."""
+        return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
+
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
 

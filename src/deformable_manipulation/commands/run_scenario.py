@@ -41,6 +41,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
+    _warn_of_start(loop.distance(), scenario.controller.collision.offset)
     with interruptible():
         return _run(loop, recorder)
 
@@ -77,6 +78,16 @@ def _make_loop(scenario: Scenario, safety: bool):
     from deformable_manipulation.closed_loop import ClosedLoop
 
     return ClosedLoop(scenario, safety=safety)
+
+
+def _warn_of_start(distance: float, offset: float) -> None:
+    """A start within a limit is allowed, and rarely meant."""
+    if distance < offset:
+        print(
+            f"run_scenario: WARNING: the object starts {1e3 * distance:.1f} mm from the obstacles, "
+            f"nearer than controller.collision.offset, {1e3 * offset:.1f} mm (negative: inside)",
+            file=sys.stderr,
+        )
 
 
 def _run(loop, recorder: RunRecorder) -> int:

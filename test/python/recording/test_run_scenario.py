@@ -20,11 +20,15 @@ class ReplayLoop:
     """Stands in for ClosedLoop: records synthetic cycles, then does what a test wants."""
 
     end = None
+    start = 1.0
     runs = []
 
     def __init__(self, scenario, safety=True):
         self._scenario = scenario
         self.runs.append((scenario, safety))
+
+    def distance(self):
+        return self.start
 
     def run(self, recorder, progress):
         for cycle in range(CYCLES):
@@ -178,3 +182,10 @@ def test_failing_to_write_is_no_success(loop, scenario_file, output, monkeypatch
     monkeypatch.setattr(run_recorder.np, "savez_compressed", full_disk)
     assert main([scenario_file, "--output", str(output)]) == 1
     assert "No space left" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("start, warned", [(1.0, False), (0.01, True), (-0.1, True)])
+def test_a_start_within_the_offset_is_told(loop, scenario_file, output, capsys, start, warned):
+    loop.start = start
+    assert main([scenario_file, "--output", str(output)]) == 0
+    assert (f"starts {1e3 * start:.1f} mm from the obstacles" in capsys.readouterr().err) == warned
