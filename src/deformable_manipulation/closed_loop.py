@@ -38,7 +38,7 @@ class ClosedLoop:
         self._stretch = StretchGauge(scenario.object)
 
     def distance(self) -> float:
-        """Signed distance [m] of the object from the obstacles now; infinite where there are none."""
+        """Present signed distance [m] of the object from the obstacles; infinite without any."""
         return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
 
     def run(self, recorder=None, progress=None) -> None:
