@@ -62,6 +62,11 @@ class Program:
         """Its process id."""
         return self._process.pid
 
+    @property
+    def exit_status(self):
+        """None while it runs; negative: the signal that ended it."""
+        return self._process.poll()
+
     def check(self):
         """Raise ProgramError, or ProgramCrashed, if the program has ended by itself."""
         status = self._process.poll()
