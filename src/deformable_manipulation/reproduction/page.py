@@ -4,7 +4,7 @@ import base64
 from pathlib import Path
 from typing import Dict, NamedTuple, Sequence, Tuple
 
-from deformable_manipulation.reproduction.plan import FULL, Plan
+from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
 from deformable_manipulation.reproduction.tables import (
     Table,
     campaign_table,
@@ -53,7 +53,10 @@ def write_page(plan: Plan, path: Path, machine: Dict[str, str], elapsed: float) 
         sections=[_section(plan, name) for name in plan.scenarios],
         tables=_tables(plan),
         campaign_pictures=[
-            _picture(plan.campaign_folder(name, variant) / "campaign.png", f"{name}, {variant}")
+            _picture(
+                plan.campaign_folder(name, variant) / "campaign.png",
+                f"{name}, {VARIANTS[variant][0]}",
+            )
             for name, variant in plan.campaigns()
         ],
         machine=machine,
