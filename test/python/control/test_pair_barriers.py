@@ -124,7 +124,8 @@ def test_without_shares_each_answers_the_others_measured_velocity(kind, position
     barrier = barrier_of(kind, shares=False)
     rows = barrier.rows(situation(positions, (0.1, 0.0, -0.2), others=0.3))
     alpha = PiecewiseLinearClassK(*SLOPES)
-    wanted = barrier.gradient(positions, 1, 2) @ np.full(3, 0.3) - alpha(barrier.value(positions, 1, 2))
+    direction, h = barrier.gradient(positions, 1, 2), barrier.value(positions, 1, 2)
+    wanted = direction @ np.full(3, 0.3) - alpha(h)
     assert rows.bounds[1] == pytest.approx(wanted)
 
 

@@ -18,7 +18,7 @@ def ground(tilt):
 
 
 def answers(smoothing, tilts):
-    """Decisions of an assistant held away from its place, on ground of each tilt; None: no ground."""
+    """Decisions of an assistant held off its place, on ground of each tilt; None: no ground."""
     scenario = build.scenario(smoothing=smoothing, max_acceleration=100.0, max_velocity=1.0)
     positions = np.array([agent.start for agent in scenario.agents]) + [[0, 0, 0], [0, 0, 0.4]]
     controller = AssistantController(scenario, "assistant_1")
