@@ -18,9 +18,6 @@ constexpr double NEGLIGIBLE_GRADIENT = 1e-3;
 // the first limit in the priority to the last.
 constexpr std::array<double, LIMIT_TIERS> PENALTIES = {1e6, 1e4, 1e2};
 
-// Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
-constexpr double ANTICIPATION_WEIGHT = 10.0;
-
 std::array<double, TIERS> penaltiesOf(const Priority& priority) {
   std::array<double, TIERS> penalties = {};
   for (int place = 0; place < LIMIT_TIERS; ++place) {
@@ -117,7 +114,7 @@ void SafetyFilter::formulate(const Given& given) {
     const double steepest = (squares_.array() * (given.nominal.cwiseAbs() + reach).array()).maxCoeff();
     for (int tier = 0; tier < TIERS; ++tier) {
       const bool is_limit = penalties_[tier] > 0.0;
-      program_.hessian[n + tier] = is_limit ? 1.0 : ANTICIPATION_WEIGHT;
+      program_.hessian[n + tier] = is_limit ? 1.0 : anticipation_;
       program_.linear[n + tier] = penalties_[tier] * (steepest > 0.0 ? steepest : 1.0);
       program_.addRow(0.0)[n + tier] = 1.0;
     }

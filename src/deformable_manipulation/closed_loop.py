@@ -2,8 +2,8 @@
 
 import time
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
@@ -30,10 +30,7 @@ class ClosedLoop:
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
-        self._controllers = {
-            index: AssistantController(scenario, scenario.agents[index].name, safety)
-            for index in scenario.assistants
-        }
+        self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
         self._points = self._simulation.points()
         self._stretch = StretchGauge(scenario.object)
 
@@ -64,9 +61,9 @@ class ClosedLoop:
         started = time.perf_counter()
         observation = self._observe()
         measured = time.perf_counter()
-        decisions = {
-            index: controller.update(observation) for index, controller in self._controllers.items()
-        }
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(observation))
         leader = self._leader_index
         leader_velocity = self._leader.update(observation.time, observation.positions[leader])
         decided = time.perf_counter()
@@ -76,8 +73,9 @@ class ClosedLoop:
         advancing = time.perf_counter()
         simulation.advance()
         simulation.set_command(leader, leader_velocity)
-        for index, decision in decisions.items():
-            simulation.set_command(index, decision.command)
+        for index in self._scenario.assistants:
+            name = self._scenario.agents[index].name
+            simulation.set_command(index, decisions[name].command)
         advanced = time.perf_counter()
 
         return CycleRecord(
@@ -88,9 +86,7 @@ class ClosedLoop:
             positions=observation.positions,
             velocities=velocities,
             points=points,
-            decisions={
-                self._scenario.agents[index].name: decision for index, decision in decisions.items()
-            },
+            decisions=decisions,
             timings=CycleTimings(
                 simulation=advanced - advancing,
                 distance=measured - started,

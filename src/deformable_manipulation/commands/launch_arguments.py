@@ -7,7 +7,7 @@ from typing import Iterator, Sequence
 from deformable_manipulation.commands.arguments import overrides
 from deformable_manipulation.scenario.errors import Problem
 from deformable_manipulation.scenario.readers import nearest
-from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.spec import CENTRALISED, DECENTRALISED, Scenario
 
 
 def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,6 +34,11 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="--assistants must name all of them: a lock-step run waits for each",
     )
+    group.add_argument(
+        "--cooperation",
+        choices=(DECENTRALISED, CENTRALISED),
+        help="what the launch starts: a controller for each assistant, or one for all",
+    )
     group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
     group.add_argument(
         "--output", metavar="DIR", help="folder that must be there and take a recording"
@@ -43,6 +48,7 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
 def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
     """What is wrong with a launch's arguments for a correct scenario."""
     yield from _assistant_problems(arguments, scenario)
+    yield from _cooperation_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
@@ -73,6 +79,26 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
             'assistants:="{}"'.format(", ".join(absent), " ".join(known)),
             f"'{' '.join(given)}'",
         )
+
+
+def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    cooperation = scenario.controller.cooperation
+    if arguments.cooperation not in (None, cooperation):
+        yield Problem(
+            "cooperation",
+            f"is not the scenario's; give cooperation:={cooperation} to run.launch (agent.launch, "
+            f"on an assistant's own computer, is for {DECENTRALISED} scenarios only)",
+            f"'{arguments.cooperation}'",
+        )
+    elif arguments.cooperation == CENTRALISED and arguments.assistants:
+        known = [scenario.agents[index].name for index in scenario.assistants]
+        if set(known) - set(arguments.assistants):
+            yield Problem(
+                "assistants",
+                "must be all of a centralised scenario, or none; give "
+                'assistants:="{}"'.format(" ".join(known)),
+                f"'{' '.join(arguments.assistants)}'",
+            )
 
 
 def _folder_problems(folder: str) -> Iterator[Problem]:

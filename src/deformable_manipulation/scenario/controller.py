@@ -15,6 +15,8 @@ from deformable_manipulation.scenario.readers import (
     vector,
 )
 from deformable_manipulation.scenario.spec import (
+    CENTRALISED,
+    DECENTRALISED,
     CollisionSpec,
     ControllerSpec,
     OverstretchSpec,
@@ -99,12 +101,14 @@ CONTROLLER = FormulatedSection(
     ControllerSpec,
     {
         "formulation": Choice(FULL, PAPER),
+        "cooperation": Choice(DECENTRALISED, CENTRALISED),
         "priority": Priority(),
         "rate": Number("Hz", at_least=0.1, at_most=10000.0),
         "gain": Number("1/s", above=0.0),
         "weights": vector("1", above=0.0),
         "max_velocity": Number("m/s", above=0.0),
         "max_acceleration": Number("m/s^2", above=0.0),
+        "smoothing": Number("s", at_least=0.0, at_most=10.0),
         "perturbation": vector("m", smallest_size=_SMALLEST_PERTURBATION),
         "jacobian": Choice("perturbed_copies", "equilibrium"),
         "differences": Choice("central", "forward"),

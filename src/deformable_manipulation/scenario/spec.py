@@ -14,6 +14,9 @@ Quaternion = Tuple[float, float, float, float]
 LEADER = "leader"
 ASSISTANT = "assistant"
 
+DECENTRALISED = "decentralised"
+CENTRALISED = "centralised"
+
 
 @dataclass(frozen=True)
 class Pose:
@@ -182,12 +185,15 @@ class ControllerSpec:
     overstretch: OverstretchSpec = OverstretchSpec()
     proximity: ProximitySpec = ProximitySpec()
     formulation: str = "full"  # "full", or "paper": its equations as they are
+    # "decentralised": each assistant on its own; "centralised": all in one quadratic program
+    cooperation: str = DECENTRALISED
     priority: Tuple[str, str, str] = ("collision", "overstretch", "proximity")  # last yields first
     rate: float = 100.0  # Hz, cycles per second
     gain: float = 1.0  # 1/s, k_p
     weights: Vector = (1.0, 1.0, 1.0)  # gamma, cost of departing from the nominal velocity per axis
     max_velocity: float = 0.15  # m/s, bound on every component
     max_acceleration: float = 1.0  # m/s^2, bound on every component
+    smoothing: float = 0.2  # s, time constant of departures from the nominal velocity; 0: none
     perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
     jacobian: str = "equilibrium"  # exact gradients where known; or "perturbed_copies"
     differences: str = "central"  # "central": copies on both sides; "forward": on one (the paper)
