@@ -35,9 +35,9 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         help="--assistants must name all of them: a lock-step run waits for each",
     )
     group.add_argument(
-        "--cooperation",
-        choices=(DECENTRALISED, CENTRALISED),
-        help="what the launch starts: a controller for each assistant, or one for all",
+        "--separate",
+        action="store_true",
+        help="each controller has a process of its own",
     )
     group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
     group.add_argument(
@@ -82,15 +82,16 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
 
 
 def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
-    cooperation = scenario.controller.cooperation
-    if arguments.cooperation not in (None, cooperation):
+    if scenario.controller.cooperation != CENTRALISED:
+        return
+    if arguments.separate:
         yield Problem(
-            "cooperation",
-            f"is not the scenario's; give cooperation:={cooperation} to run.launch (agent.launch, "
-            f"on an assistant's own computer, is for {DECENTRALISED} scenarios only)",
-            f"'{arguments.cooperation}'",
+            "controller.cooperation",
+            "one process decides for all assistants then; leave out one_process:=false (and "
+            f"agent.launch, for an assistant's own computer), or make it {DECENTRALISED}",
+            f"'{CENTRALISED}'",
         )
-    elif arguments.cooperation == CENTRALISED and arguments.assistants:
+    elif arguments.assistants:
         known = [scenario.agents[index].name for index in scenario.assistants]
         if set(known) - set(arguments.assistants):
             yield Problem(

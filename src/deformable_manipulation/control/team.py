@@ -13,14 +13,19 @@ _STATUSES = sorted(Status)
 _KINDS = ("collision", "overstretch", "proximity")
 
 
-def teams(scenario):
+def teams(scenario, names=None):
     """Names of the assistants whose velocities are decided together, a tuple per controller.
 
     ``controller.cooperation`` says which: each assistant alone, or all in one program.
+
+    Args:
+        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
+        names: of the assistants; default: all of the scenario.
     """
-    names = tuple(scenario.agents[index].name for index in scenario.assistants)
+    if names is None:
+        names = [scenario.agents[index].name for index in scenario.assistants]
     if scenario.controller.cooperation == CENTRALISED:
-        return (names,)
+        return (tuple(names),)
     return tuple((name,) for name in names)
 
 

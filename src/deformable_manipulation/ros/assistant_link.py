@@ -13,21 +13,25 @@ from deformable_manipulation.ros.conversions import fill_controller_state, to_tw
 class AssistantLink:
     """Sends an assistant's commands and controller states.
 
+    Reads the node's parameter ``~lockstep``: then the last command is kept for an agent that comes
+    late.
+
     Args:
         name: of the assistant.
         frame: the scenario's fixed frame.
-        latch: keep the last command for an agent that comes late.
+        counter: the node's :class:`~.cycle_counter.CycleCounter`, for ControllerState.
     """
 
-    def __init__(self, name, frame, latch):
+    def __init__(self, name, frame, counter):
         self.name = name
         self._frame = frame
+        self._counter = counter
         self._commands = rospy.Publisher(
             f"{name}/cmd_vel",
             TwistStamped,
             queue_size=node.QUEUE_SIZE,
             tcp_nodelay=True,
-            latch=latch,
+            latch=rospy.get_param("~lockstep", False),
         )
         self._states = rospy.Publisher(
             f"{name}/controller_state", ControllerState, queue_size=node.QUEUE_SIZE
@@ -44,17 +48,18 @@ class AssistantLink:
         """See :func:`.node.await_subscribers`."""
         node.await_subscribers(self._states)
 
-    def send(self, state, decision):
-        """The answer to a state."""
-        self._commands.publish(self._command(state, decision.command))
-        self._states.publish(fill_controller_state(ControllerState(), state, self.name, decision))
-
-    def stop(self, state):
-        """A command to stand still; no controller state."""
-        self._commands.publish(self._command(state, (0.0, 0.0, 0.0)))
-
-    def _command(self, state, velocity):
+    def command(self, state, velocity):
+        """Send the velocity [m/s] that answers a state."""
         command = to_twist(TwistStamped(), state, velocity)
         # Not the frame of a state that is refused for it: a stop has to be accepted.
         command.header = Header(stamp=state.header.stamp, frame_id=self._frame)
-        return command
+        self._commands.publish(command)
+
+    def report(self, state, decision):
+        """Send what was decided on a state, and why, if anybody listens."""
+        if not self._states.get_num_connections():
+            return
+        message = fill_controller_state(ControllerState(), state, self.name, decision)
+        message.overruns = self._counter.overruns
+        message.skipped_states = self._counter.skipped
+        self._states.publish(message)
