@@ -21,13 +21,15 @@ _NO_STATE = "Nothing changed: there is no state that can be used; see controller
 class Assistant:
     """Topics and services of an assistant's controller; which node it is in does not matter.
 
-    Reads the node's parameters ``~enabled``, ``~safety`` and ``~lockstep``. Leaves the process
-    with a message if the scenario has no assistant of that name.
+    Reads the node's parameters ``~enabled``, ``~safety`` and ``~lockstep``.
 
     Args:
         scenario: the checked scenario.
         agent: name of the assistant.
         counter: the node's :class:`~.cycle_counter.CycleCounter`, for ControllerState.
+
+    Raises:
+        ValueError: the scenario has no assistant of that name, or an unusable setting.
     """
 
     def __init__(self, scenario, agent, counter):
@@ -35,7 +37,8 @@ class Assistant:
         self._agent = agent
         self._counter = counter
         self._lock = threading.RLock()  # services and messages come in different threads
-        self._controller = self._make_controller()
+        self._controller = AssistantController(scenario, agent, rospy.get_param("~safety", True))
+        self._controller.enabled = rospy.get_param("~enabled", True)
         self._warnings = node.Warnings()
         self._answered = None  # newest state answered
         self._observation = None  # of the newest state, while its inputs can be used
@@ -55,16 +58,6 @@ class Assistant:
         rospy.Service(f"{agent}/take_reference", Trigger, self._take_reference)
         node.await_subscribers(self._states)
         rospy.on_shutdown(self._stop)
-
-    def _make_controller(self):
-        try:
-            controller = AssistantController(
-                self._scenario, self._agent, safety=rospy.get_param("~safety", True)
-            )
-        except ValueError as error:
-            node.refuse(f"No controller for agent '{self._agent}': {error}")
-        controller.enabled = rospy.get_param("~enabled", True)
-        return controller
 
     def decide(self, state, observation, fault=""):
         """The Decision that answers a state.
