@@ -26,7 +26,9 @@ class StateAnswers:
         self._overruns = OverrunReport(scenario.cycle_time)
         agents = rospy.get_param(parameter, "").split() or [""]
         try:
-            self._assistants = [Assistant(scenario, agent, self._overruns.counter) for agent in agents]
+            self._assistants = [
+                Assistant(scenario, agent, self._overruns.counter) for agent in agents
+            ]
         except ValueError as error:
             node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
 
