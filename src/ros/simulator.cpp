@@ -3,6 +3,8 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <cstdio>
+
 #include "state_message.h"
 
 namespace deformable_manipulation {
@@ -79,7 +81,8 @@ void Simulator::run() {
     await([this] { return unrecorded(0); });
     ROS_INFO("End of the scenario after %.2f s.", simulation_.time());
   }
-  ROS_INFO("Overruns: %ld of %ld cycles.", overruns_, published_);
+  // The console of ROS is closed when the node has been told to leave.
+  std::printf("%s: Overruns: %ld of %ld cycles.\n", ros::this_node::getName().c_str(), overruns_, published_);
 }
 
 bool Simulator::atEnd() const {

@@ -48,7 +48,7 @@ class DistancePublisher:
         except MessageError:
             raise
         except ValueError as error:
-            raise MessageError(f"it gives no distances: {error}") from error
+            raise MessageError(f"points: {error}") from error
         return distances, time.perf_counter() - started
 
     def publish(self, state, distances, computation_time):

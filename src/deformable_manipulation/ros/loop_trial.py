@@ -23,7 +23,7 @@ _START = 120.0  # s, for the object to settle and all nodes to work
 _PATIENCE = 30.0  # s, beyond the recording's length
 _CALLER = "/loop_trial"
 _OVERRUNS = re.compile(
-    r"^/(\S+): Overruns: (\d+) of \d+ cycles(?:, (\d+) states skipped)?\.", re.MULTILINE
+    r"/(\S+): Overruns: (\d+) of \d+ cycles(?:, (\d+) states skipped)?\."
 )
 
 
@@ -153,17 +153,17 @@ def _pid_of(node: str) -> int:
 
 
 def _read_commands(directory: Path, assistants) -> Dict[str, Commands]:
-    statuses = {name: Status(state.status).name for name, _, state in _read(directory / "states.bag")}
+    states = {name: state for name, _, state in _read(directory / "states.bag")}
     found: Dict[str, List[Tuple[int, int]]] = {name: [] for name in assistants}
     for name, received, command in _read(directory / "commands.bag"):
         stamp = command.header.stamp
         sent = stamp.sec * 10**9 + stamp.nanosec
         found[name].append((sent, received - sent))
-    missing = [name for name, pairs in found.items() if not pairs]
+    missing = [name for name, pairs in found.items() if not pairs or name not in states]
     if missing:
-        raise ProgramError(f"no commands came from {', '.join(missing)}")
+        raise ProgramError(f"no commands or states came from {', '.join(missing)}")
     return {
-        name: Commands(*(1e-9 * np.array(pairs).T), statuses.get(name, ""))
+        name: Commands(*(1e-9 * np.array(pairs).T), Status(states[name].status).name)
         for name, pairs in found.items()
     }
 

@@ -13,20 +13,25 @@ from deformable_manipulation.ros.team import Team
 class StateAnswers:
     """Lets assistants answer states, and counts how well they keep up.
 
-    Reads the node's parameter ``~lockstep``.
+    Reads the node's parameter ``~lockstep``. Leaves the process with a message if the scenario has
+    no assistants of these names.
 
     Args:
         scenario: the checked scenario.
-        agents: names of the assistants.
+        parameter: of the node, with the names of the assistants, separated by blanks.
     """
 
-    def __init__(self, scenario, agents):
+    def __init__(self, scenario, parameter):
         self._scenario = scenario
         self._lockstep = rospy.get_param("~lockstep", False)
         self._overruns = OverrunReport(scenario.cycle_time)
-        self._teams = [
-            Team(scenario, names, self._overruns.counter) for names in teams(scenario, agents)
-        ]
+        agents = rospy.get_param(parameter, "").split() or [""]
+        try:
+            self._teams = [
+                Team(scenario, names, self._overruns.counter) for names in teams(scenario, agents)
+            ]
+        except ValueError as error:
+            node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
 
     def answer(self, state, distances_of):
         """Command the velocities that answer a state, then report them.

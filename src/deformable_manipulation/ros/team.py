@@ -19,19 +19,23 @@ _NO_STATE = "Nothing changed: there is no state that can be used; see controller
 class Team:
     """Assistants whose velocities one controller decides; which node it is in does not matter.
 
-    Reads the node's parameters ``~enabled``, ``~safety`` and ``~lockstep``. Leaves the process
-    with a message if the scenario has no assistant of a name.
+    Reads the node's parameters ``~enabled``, ``~safety`` and ``~lockstep``.
 
     Args:
         scenario: the checked scenario.
         names: of the assistants.
         counter: the node's :class:`~.cycle_counter.CycleCounter`.
+
+    Raises:
+        ValueError: the scenario has no assistant of a name, or an unusable setting.
     """
 
     def __init__(self, scenario, names, counter):
         self._scenario = scenario
         self._lock = threading.RLock()  # services and messages come in different threads
-        self._controller = self._make_controller(names)
+        self._controller = TeamController(scenario, names, rospy.get_param("~safety", True))
+        for name in names:
+            self._controller.set_enabled(name, rospy.get_param("~enabled", True))
         self._warnings = node.Warnings()
         self._answered = None  # newest state answered
         self._observation = None  # of the newest state, while its inputs can be used
@@ -43,16 +47,6 @@ class Team:
         for link in self._links:
             link.await_subscribers()
         rospy.on_shutdown(self._stop)
-
-    def _make_controller(self, names):
-        safety, enabled = rospy.get_param("~safety", True), rospy.get_param("~enabled", True)
-        try:
-            controller = TeamController(self._scenario, names, safety)
-        except ValueError as error:
-            node.refuse(f"No controller for '{', '.join(names)}': {error}")
-        for name in names:
-            controller.set_enabled(name, enabled)
-        return controller
 
     def decide(self, state, observation, fault=""):
         """The Decisions that answer a state, by the assistants' names.
