@@ -80,6 +80,14 @@ def test_two_assistants_come_back_and_stay(cooperation, where):
         assert missing[-1] <= 0.3 * missing[0], kind
 
 
+def test_centralised_frees_the_one_in_the_middle_at_once():
+    """Decentralised it stays until the outer one, which takes half the demand, has made way."""
+    settings = dict(assistants=2, proximity=ProximitySpec(0.78), duration=3.0)
+    left = {mode: shortfall(start(cooperation=mode, **settings), "proximity")[-1]
+            for mode in (DECENTRALISED, CENTRALISED)}
+    assert left[CENTRALISED] < 0.001 < 0.01 < left[DECENTRALISED] < 0.03
+
+
 def pushed(priority):
     """An assistant pushed away from its leader, farther than it may go, by a wall that advances."""
     identity = np.zeros((2, 1, 3, 3))
