@@ -5,47 +5,19 @@ import functools
 import control_builders as build
 import numpy as np
 import pytest
+from control_run import Run
 from scipy.signal import butter, filtfilt
 
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.leader import LeaderController
 from deformable_manipulation.scenario.spec import (
     CENTRALISED,
     DECENTRALISED,
     OverstretchSpec,
 )
 
-GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
 FAR = build.HalfSpace((0.0, 0.0, 1.0), -9.0)
 # The leader sinks at up to 0.15 m/s, until the object would be 0.15 m in the ground, and moves on.
 DIVE = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (6.5, (0, 0.2, -0.5)), (9.0, (0, 0.4, -0.5)))
-
-
-class Run:
-    """Histories of a run: time first."""
-
-    def __init__(self, scenario, duration, obstacle=GROUND, sag=0.55, **settings):
-        controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]
-        leader = LeaderController(scenario)
-        body = build.hanging_chain(len(scenario.agents), sag)
-        positions = np.array([agent.start for agent in scenario.agents])
-        acting = np.zeros_like(positions)
-        states, decisions = [], []
-        for k in range(round(duration / scenario.cycle_time)):
-            time = k * scenario.cycle_time
-            observation = build.observe(time, positions, body, obstacle.at(time), cycle=k)
-            decided = [each for team in controllers for each in team.update(observation).values()]
-            states.append(positions)
-            decisions.append(decided)
-            commands = [leader.update(time, positions[0])] + [each.command for each in decided]
-            positions = positions + scenario.cycle_time * acting
-            acting = np.array(commands)
-        self.positions = np.array(states)
-        self.decisions = decisions
-
-    def all(self, field):
-        return np.array([[getattr(each, field) for each in row] for row in self.decisions])
 
 
 @functools.lru_cache(maxsize=None)
