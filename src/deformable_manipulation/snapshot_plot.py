@@ -48,12 +48,17 @@ class SnapshotPlot:
     def draw(self, times: Sequence[float]) -> None:
         """Obstacles, ways, and the object at some times [s], each in a colour of its own."""
         for obstacle in self._frames.scenario.obstacles:
-            self._draw_obstacle(obstacle)
+            if obstacle.motion is None:
+                self._draw_obstacle(obstacle, GROUND_EDGE)
         for index in range(self._frames.agents.shape[1]):
             way = self._frames.agents[:, index, self._plane]
             self._axes.plot(*way.T, linestyle=":", linewidth=0.6, color="#606060", zorder=2)
         for number, time in enumerate(times):
-            self._draw_frame(self._frames.at(time), COLOURS[number % len(COLOURS)])
+            frame, colour = self._frames.at(time), COLOURS[number % len(COLOURS)]
+            for obstacle in self._frames.obstacles_at(frame):
+                if obstacle.motion is not None:
+                    self._draw_obstacle(obstacle, colour)
+            self._draw_frame(frame, colour)
         across, up = (AXES[axis] for axis in self._plane)
         self._axes.set_xlabel(f"{across} [m]")
         self._axes.set_ylabel(f"{up} [m]")
@@ -105,19 +110,20 @@ class SnapshotPlot:
                 )
 
     @singledispatchmethod
-    def _draw_obstacle(self, obstacle) -> None:
+    def _draw_obstacle(self, obstacle, edge: str) -> None:
         raise TypeError(f"no drawing for obstacles of {type(obstacle).__name__}")
 
     @_draw_obstacle.register
-    def _(self, obstacle: PolygonObstacle) -> None:
+    def _(self, obstacle: PolygonObstacle, edge: str) -> None:
         frame = PlaneFrame(obstacle.plane, obstacle.rotation)
         ring = frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
-        self._axes.fill(*ring[:, self._plane].T, facecolor=GROUND, edgecolor=GROUND_EDGE)
+        self._axes.fill(*ring[:, self._plane].T, facecolor=GROUND, edgecolor=edge)
 
     @_draw_obstacle.register
-    def _(self, obstacle: MeshObstacle) -> None:
+    def _(self, obstacle: MeshObstacle, edge: str) -> None:
         corners = placed_mesh(obstacle)[..., self._plane]
-        self._axes.add_collection(PolyCollection(corners, facecolor=GROUND, edgecolor="none"))
+        edge = "none" if obstacle.motion is None else edge
+        self._axes.add_collection(PolyCollection(corners, facecolor=GROUND, edgecolor=edge))
 
     def _limits(self, times: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
         """Lower and upper limits (2,) [m] of the view."""

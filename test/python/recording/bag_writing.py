@@ -98,6 +98,9 @@ class BagWriter:
         values = dict(
             numbers,
             obstacles=["ground"],
+            moving_obstacles=[],
+            obstacle_poses=np.zeros(0),
+            fault="",
             minimum_distances=np.array([minimum, 7.0]),
             feature_offsets=np.zeros(3, np.uint32),
             computation_time=1e-4,
