@@ -2,10 +2,10 @@
 """An obstacle that is where a tf frame is."""
 
 import rospy
+import tracked_obstacle
 from geometry_msgs.msg import Transform, TransformStamped, Vector3
 from observed_run import run_tests
 from tf2_msgs.msg import TFMessage
-from tracked_obstacle import START, VELOCITY, TrackedObstacleTest
 from walking_pose import WalkingPose
 
 
@@ -22,12 +22,12 @@ class WalkingFrame(WalkingPose):
         self._publisher.publish(TFMessage([TransformStamped(pose.header, self._child, place)]))
 
 
-class ObstacleFrameTest(TrackedObstacleTest):
+class ObstacleFrameTest(tracked_obstacle.TrackedObstacleTest):
     origin = "of tf frame 'moved_ground' in 'map'"
 
     @classmethod
     def start_obstacle(cls):
-        return WalkingFrame("moved_ground", START, VELOCITY)
+        return WalkingFrame("moved_ground", tracked_obstacle.START, tracked_obstacle.VELOCITY)
 
 
 if __name__ == "__main__":

@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 """An obstacle whose poses come from a topic, as from a tracker, or dragged by hand."""
 
+import tracked_obstacle
 from observed_run import run_tests
-from tracked_obstacle import START, VELOCITY, TrackedObstacleTest
 from walking_pose import WalkingPose, in_another_frame, late, not_finite, without_orientation
 
 LOST = "obstacle 'ground' is lost: no pose for"
 
 
-class ObstacleTopicTest(TrackedObstacleTest):
+class ObstacleTopicTest(tracked_obstacle.TrackedObstacleTest):
     origin = "on /moved_ground"
 
     @classmethod
     def start_obstacle(cls):
-        return WalkingPose("moved_ground", START, VELOCITY)
+        return WalkingPose("moved_ground", tracked_obstacle.START, tracked_obstacle.VELOCITY)
 
     def test_late(self):
         self.assert_stops_and_goes_on(late, LOST, log=("is dropped: its stamp is 1.0 s old",))

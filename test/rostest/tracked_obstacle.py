@@ -18,7 +18,9 @@ CLOSE = 1e-3  # m, m/s: stamps of a busy machine
 
 
 class TrackedObstacleTest(FaultTest):
-    """Its setting up finds the assistant waiting until the obstacle is seen.
+    """To be imported by its module: a name of its own in a program would be run there.
+
+    Its setting up finds the assistant waiting until the obstacle is seen.
 
     Attributes:
         origin: where the poses come from, in the words of the status.
@@ -57,7 +59,7 @@ class TrackedObstacleTest(FaultTest):
         np.testing.assert_allclose(np.concatenate(velocities).mean(axis=0), VELOCITY, 0.0, CLOSE)
 
     def test_lost(self):
-        self.assert_stops_and_goes_on(lost, f"obstacle 'ground' is lost: no pose for 0.")
+        self.assert_stops_and_goes_on(lost, "obstacle 'ground' is lost: no pose for")
 
     def assert_stops_and_goes_on(self, spoil, *status, log=()):
         self.obstacle.spoil = spoil
