@@ -41,7 +41,7 @@ class PoseTrack:
             orientation: quaternion x, y, z, w.
 
         Returns:
-            Why it is dropped, as a clause; empty where it is used, or not newer than the one before.
+            Why it is dropped, as a clause; empty where it is used, or not newer than the last one.
         """
         if not all(map(math.isfinite, (stamp, *position, *orientation))):
             return "it is not finite"

@@ -110,8 +110,8 @@ def test_obstacles_that_only_ros_moves_stand_and_that_is_told(tmp_path, capsys, 
 
 
 def test_a_campaign_keeps_the_motion_and_the_leader_clear_of_it(scenario):
-    box = ("leader.waypoints", "[{time: 0, position: [0, 0, 0]}, {time: 9, position: [0, 0.5, -0.2]}]")
-    scenario = load_scenario(NAME, [box])
+    walk = "[{time: 0, position: [0, 0, 0]}, {time: 9, position: [0, 0.5, -0.2]}]"
+    scenario = load_scenario(NAME, [("leader.waypoints", walk)])
     ranges = Ranges(duration=40.0)
     shifts = []
     for index in range(2):
