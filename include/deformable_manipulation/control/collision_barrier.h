@@ -56,6 +56,7 @@ class CollisionBarrier {
 
  private:
   Vector3 leaderVelocity(const Situation& situation) const;
+  Vector3 obstacleVelocity(const Features& features, int feature) const;
   double predictedDistance(const Features& features, int feature, const Situation& situation) const;
   double shareOf(const Features& features, int feature) const;
 

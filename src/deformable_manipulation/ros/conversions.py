@@ -103,14 +103,22 @@ def to_distances(message) -> Distances:
         normal=_reshaped(message.normals, "normals", vectors),
         vertices=_reshaped(message.feature_vertices, "feature_vertices", vectors).astype(np.int64),
         weights=_reshaped(message.feature_weights, "feature_weights", vectors),
-        obstacle_velocity=_reshaped(message.obstacle_velocities, "obstacle_velocities", vectors),
+        obstacle_velocity=_obstacle_velocities(message.obstacle_velocities, vectors),
         identity=_reshaped(message.feature_identities, "feature_identities", (features,)),
         names=tuple(message.obstacles),
     )
 
 
-def fill_distances(message, state, distances, computation_time):
-    """Write the distances of a state into a ``Distances`` message."""
+def _obstacle_velocities(values, shape):
+    """Zeros where none are told. Raises MessageError."""
+    return _reshaped(values, "obstacle_velocities", shape) if len(values) else np.zeros(shape)
+
+
+def fill_distances(message, state, distances, computation_time, moving=(), poses=(), fault=""):
+    """Write the distances of a state into a ``Distances`` message.
+
+    ``moving``: names of the K moving obstacles, ``poses``: where they are, (K, 7).
+    """
     message.header = state.header
     message.cycle = state.cycle
     message.reset_count = state.reset_count
@@ -122,10 +130,13 @@ def fill_distances(message, state, distances, computation_time):
     message.object_points = distances.object_point.ravel()
     message.obstacle_points = distances.obstacle_point.ravel()
     message.normals = distances.normal.ravel()
-    message.obstacle_velocities = distances.obstacle_velocity.ravel()
+    message.obstacle_velocities = distances.obstacle_velocity.ravel() if moving else np.zeros(0)
     message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
     message.feature_weights = distances.weights.ravel()
     message.feature_identities = _identities(distances)
+    message.moving_obstacles = list(moving)
+    message.obstacle_poses = np.ravel(poses)
+    message.fault = fault
     message.computation_time = computation_time
     return message
 

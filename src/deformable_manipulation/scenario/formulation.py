@@ -16,7 +16,12 @@ _PAPERS = {
     "differences": "forward",
     "feedforward": False,
     "smoothing": 0.0,
-    "collision": {"margin": 0.0, "speed_margin": 0.0, "gradient": "minimum"},
+    "collision": {
+        "margin": 0.0,
+        "speed_margin": 0.0,
+        "obstacle_velocity": False,
+        "gradient": "minimum",
+    },
     "overstretch": {"margin": 0.0},
     "proximity": {"margin": 0.0},
 }
