@@ -84,6 +84,7 @@ const Decision& AssistantController::update(const ObservationView& observation) 
 
 //! The situation at the next state, when the command starts to act.
 void AssistantController::predict(const ObservationView& observation) {
+  const double* velocities = observation.velocities != nullptr ? observation.velocities : velocities_.velocity().data();
   situation_.leader = parameters_.leader;
   situation_.delay = parameters_.formulation.prediction ? parameters_.cycle_time : 0.0;
   situation_.positions.resize(positions_.size());
@@ -91,7 +92,7 @@ void AssistantController::predict(const ObservationView& observation) {
   for (int agent = 0; agent < observation.agents; ++agent) {
     positions_[agent] = observation.position(agent);
     situation_.velocities[agent] =
-        agent == parameters_.agent ? command_ : Vector3(velocities_.velocity().segment<3>(3 * agent));
+        agent == parameters_.agent ? command_ : Vector3(Eigen::Map<const Vector3>(velocities + 3 * agent));
     situation_.positions[agent] = positions_[agent] + situation_.delay * situation_.velocities[agent];
   }
 }
