@@ -136,13 +136,14 @@ void TeamController::conclude() {
 
 //! The situation at the next state, when the commands start to act.
 void TeamController::predict(const ObservationView& observation) {
+  const double* velocities = observation.velocities != nullptr ? observation.velocities : velocities_.velocity().data();
   situation_.leader = parameters_.leader;
   situation_.delay = parameters_.formulation.prediction ? parameters_.cycle_time : 0.0;
   situation_.positions.resize(positions_.size());
   situation_.velocities.resize(positions_.size());
   for (int agent = 0; agent < observation.agents; ++agent) {
     positions_[agent] = observation.position(agent);
-    situation_.velocities[agent] = velocities_.velocity().segment<3>(3 * agent);
+    situation_.velocities[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
   }
   for (const Member& member : members_) {
     situation_.velocities[member.agent] = member.command;

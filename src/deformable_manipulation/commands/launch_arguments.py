@@ -26,7 +26,6 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         "--assistants",
         metavar="NAMES",
         type=str.split,
-        default=[],
         help="assistants that the scenario must have, separated by blanks",
     )
     group.add_argument(
@@ -47,8 +46,10 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
 
 def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
     """What is wrong with a launch's arguments for a correct scenario."""
-    yield from _assistant_problems(arguments, scenario)
-    yield from _cooperation_problems(arguments, scenario)
+    if arguments.assistants is not None:
+        yield from _assistant_problems(arguments, scenario)
+        yield from _cooperation_problems(arguments, scenario)
+        yield from _knowledge_problems(scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
@@ -100,6 +101,15 @@ def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> 
                 'assistants:="{}"'.format(" ".join(known)),
                 f"'{' '.join(arguments.assistants)}'",
             )
+
+
+def _knowledge_problems(scenario: Scenario) -> Iterator[Problem]:
+    if not scenario.knowledge.perfect:
+        yield Problem(
+            "knowledge",
+            "is of runs without ROS (run_scenario, run_campaign): nodes know what they are told; "
+            "remove the section",
+        )
 
 
 def _folder_problems(folder: str) -> Iterator[Problem]:

@@ -44,6 +44,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 1
     _warn_of_standing(scenario)
     _warn_of_start(loop.distance(), scenario.controller.collision.offset)
+    _warn_of_poses(scenario)
     with interruptible():
         return _run(loop, recorder)
 
@@ -98,6 +99,18 @@ def _warn_of_start(distance: float, offset: float) -> None:
         print(
             f"run_scenario: WARNING: the object starts {1e3 * distance:.1f} mm from the obstacles, "
             f"nearer than controller.collision.offset, {1e3 * offset:.1f} mm (negative: inside)",
+            file=sys.stderr,
+        )
+
+
+def _warn_of_poses(scenario: Scenario) -> None:
+    """Without ROS nobody publishes poses."""
+    names = [agent.name for agent in scenario.agents if agent.driven_by == "pose"]
+    if names:
+        print(
+            f"run_scenario: WARNING: without ROS {', '.join(names)} moves as commanded, as with "
+            f"driven_by: command; for poses measured late and with noise see the section "
+            f"`knowledge` (docs/parameters.md)",
             file=sys.stderr,
         )
 

@@ -116,6 +116,7 @@ CONTROLLER = FormulatedSection(
         "feedforward": Flag(),
         "solver": QpSolver(),
         "timeout": Number("s", above=0.0),
+        "pose_smoothing": Number("s", at_least=0.0, at_most=10.0),
         "collision": COLLISION,
         "overstretch": OVERSTRETCH,
         "proximity": PROXIMITY,

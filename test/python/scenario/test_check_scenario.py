@@ -125,6 +125,13 @@ def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
     assert expected in output.err
 
 
+def test_imperfect_knowledge_is_not_for_launches(path, capsys):
+    imperfect = [str(path), "--set", "knowledge.pose_noise=0.001"]
+    assert main(imperfect) == 0
+    assert main([*imperfect, "--assistants", "helper"]) == 1
+    assert "runs without ROS" in capsys.readouterr().err
+
+
 def test_all_mistakes_in_a_launch_s_arguments_at_once(path, capsys):
     assert main([str(path), "--assistants", "a b", "--leader", "c", "--output", "/d"]) == 1
     assert "launch arguments: 4 mistakes" in capsys.readouterr().err
