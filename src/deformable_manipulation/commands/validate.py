@@ -22,6 +22,7 @@ CASE_NAMES = (
     "motion",
     "wrenches",
     "fabrics",
+    "fabric_gradients",
 )
 DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory:
 shapes, reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
