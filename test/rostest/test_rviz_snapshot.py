@@ -37,7 +37,7 @@ class RvizSnapshotTest(unittest.TestCase):
         self.addCleanup(self.assert_nothing_is_left)
 
     def start(self, *arguments):
-        command = ["python3", "-m", "deformable_manipulation.commands.rviz_snapshot", SCENARIO]
+        command = ["python3", "-m", "deformable_manipulation.commands", "rviz_snapshot", SCENARIO]
         command += ["--output", str(self.folder), "--size", "{}x{}".format(*SIZE), *arguments]
         return subprocess.Popen(
             command,

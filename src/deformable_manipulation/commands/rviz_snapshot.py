@@ -151,7 +151,3 @@ def _take_all(scenario: Scenario, times: Sequence[float], arguments: argparse.Na
                 path = arguments.output / picture_name(scenario.name, time)
                 save_png(studio.take(arguments.timeout), path, f"{scenario.name} at {time:g} s")
                 print(path, flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

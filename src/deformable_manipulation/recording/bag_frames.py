@@ -8,46 +8,42 @@ from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from deformable_manipulation.recording.bag_index import DAMAGED, open_bag
+from deformable_manipulation.recording.bag_run_info import TOPIC, connections_of, read_run_info
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunDataError
 from deformable_manipulation.scenario import ScenarioError, scenario_from_mapping
 from deformable_manipulation.scenario.spec import FabricSpec, Scenario
 
 OBJECT_STATE = "deformable_manipulation/msg/ObjectState"
-STRING = "std_msgs/msg/String"
-_RUN_INFO = "run_info"
 
 
-def read_bag_frames(path: Path) -> Frames:
+def read_bag_frames(path: Path, namespace: str = "") -> Frames:
     """The frames of the last run in a bag that was recorded with ``record:=true``.
 
     Raises RunDataError: the bag is damaged, or has no states or no description of the run.
     """
     with open_bag(path) as (reader, _):
         try:
-            scenario = _read_scenario(path, reader)
-            return _read_states(path, reader, scenario)
+            scenario = _read_scenario(path, reader, namespace)
+            return _read_states(path, reader, scenario, namespace)
         except DAMAGED as error:
             raise RunDataError(f"{path} is damaged: {error}") from error
 
 
-def _read_scenario(path: Path, reader: Reader) -> Scenario:
-    types = get_typestore(Stores.ROS1_NOETIC)
-    for connection, _, data in reader.messages(_connections(reader, STRING)):
-        # Recorded by a relative name, a topic has no slash.
-        if connection.topic.rpartition("/")[2] == _RUN_INFO:
-            text = types.deserialize_ros1(data, STRING).data
-            try:
-                return scenario_from_mapping(yaml.safe_load(text)["scenario"], path.parent)
-            except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
-                raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
+def _read_scenario(path: Path, reader: Reader, namespace: str) -> Scenario:
+    try:
+        info = read_run_info(reader, namespace)
+        if info is not None:
+            return scenario_from_mapping(info["scenario"], path.parent)
+    except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
+        raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
     raise RunDataError(
-        f"{path} holds no {_RUN_INFO}, which tells its scenario; record with record:=true"
+        f"{path} holds no {TOPIC}, which tells its scenario; record with record:=true"
     )
 
 
-def _read_states(path: Path, reader: Reader, scenario: Scenario) -> Frames:
-    connections = _connections(reader, OBJECT_STATE)
+def _read_states(path: Path, reader: Reader, scenario: Scenario, namespace: str) -> Frames:
+    connections = connections_of(reader, OBJECT_STATE, namespace)
     if not connections:
         raise RunDataError(f"{path} holds no states of the object; record the topic state")
     types = get_typestore(Stores.ROS1_NOETIC)
@@ -82,7 +78,3 @@ def _frame(state, scenario: Scenario):
     positions = np.asarray(state.agent_positions).reshape(-1, 3)
     order = [state.agents.index(agent.name) for agent in scenario.agents]
     return points.astype(np.float32), positions[order].astype(np.float32)
-
-
-def _connections(reader: Reader, msgtype: str):
-    return [connection for connection in reader.connections if connection.msgtype == msgtype]

@@ -12,6 +12,7 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import RunData, RunDataError
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.text_files import open_regular
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ def read_frames(run: RunData) -> Frames:
     # Imported late: needs the bag's library.
     from deformable_manipulation.recording.bag_frames import read_bag_frames
 
-    return read_bag_frames(run.path)
+    return read_bag_frames(run.path, run.namespace)
 
 
 def _read_folder(folder: Path) -> Frames:
@@ -47,7 +48,7 @@ def _read_folder(folder: Path) -> Frames:
     if not os.path.exists(str(path)):
         raise RunDataError(f"{folder} holds no {run_files.STATES}: there are no shapes to draw")
     try:
-        with np.load(str(path)) as states:
+        with open_regular(path) as file, np.load(file) as states:
             arrays = {name: states[name] for name in states.files}
         times, points, agents = (arrays[name] for name in ("times", "points", "agents"))
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:

@@ -31,6 +31,7 @@ class AssistantSeries:
     h_proximity: np.ndarray  # (M,) m
     nominal_velocity: np.ndarray  # (M, 3) m/s
     command: np.ndarray  # (M, 3) m/s
+    target: np.ndarray  # (M, 3) m, the place that it would keep
     status: np.ndarray  # (M,) int, the constants of ControllerState
 
 
@@ -47,6 +48,8 @@ class RunData:
     max_stretch: Optional[float] = None  # largest relative change of length; None: not recorded
     valid_stretch: float = LARGEST_VALID_STRETCH  # of an object in use; beyond it nothing is valid
     notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
+    scenario: str = ""  # its name; empty: not recorded
+    namespace: str = ""  # of its topics in a bag, such as /left
 
 
 def read_run(path, namespace: Optional[str] = None) -> RunData:
@@ -92,6 +95,7 @@ def make_assistant_series(
         h_proximity=columns["h_proximity"],
         nominal_velocity=_stack(columns, "nominal_velocity"),
         command=_stack(columns, "command"),
+        target=_stack(columns, "target"),
         status=status.astype(int),
     )
 
@@ -101,6 +105,7 @@ SERIES_COLUMNS = (
     ("error_norm", "h_collision", "h_overstretch", "h_proximity", "status")
     + vector_columns("nominal_velocity")
     + vector_columns("command")
+    + vector_columns("target")
 )
 
 
