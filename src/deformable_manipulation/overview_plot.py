@@ -12,7 +12,6 @@ from deformable_manipulation.plotting import (
     COLUMN_WIDTH,
     DISTANCE_RANGE,
     STYLE,
-    time_range,
     title_of,
 )
 from deformable_manipulation.recording.frames import Frames
@@ -52,7 +51,7 @@ def plot_overview(
         _plot_errors(error, run)
         _plot_margins(margin, run)
         for axis in (distance, error, margin):
-            axis.set_xlim(*time_range(run.time))
+            axis.set_xlim(*run.time_range)
             axis.tick_params(labelbottom=axis is margin)
             for time, colour in zip(chosen, COLOURS):
                 axis.axvline(time, color=colour, linewidth=0.8, zorder=0)

@@ -112,7 +112,7 @@ def _finish_figure(
 ) -> None:
     """What the panels share: time axis, shading, title and legend of the figure."""
     axes[-1].set_xlabel("time [s]")
-    axes[-1].set_xlim(*time_range(run.time))
+    axes[-1].set_xlim(*run.time_range)
     figure.align_ylabels(axes)
     handles = [
         Patch(facecolor=colour, label=label)
@@ -203,14 +203,6 @@ def _legend_above(axis: Axes) -> None:
         axis.legend(
             handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles)
         )
-
-
-def time_range(time: np.ndarray) -> Tuple[float, float]:
-    """From the first sample to the end of the last one's cycle [s]."""
-    start, end = float(time[0]), float(time[-1])
-    if end == start:
-        return start, start + 1.0
-    return start, round(end + (end - start) / (len(time) - 1), 6)
 
 
 def _with_lowest(name: str, values: np.ndarray) -> str:

@@ -35,11 +35,12 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return fail(NAME, str(error))
     for note in run.notes:
         print(f"note: {note}", file=sys.stderr)
-    if arguments.times and max(arguments.times) > run.time[-1] + 1e-9:
+    end = run.time_range[1]
+    if arguments.times and max(arguments.times) > end:
         return fail(
             NAME,
             f"--times: {max(arguments.times):g} s is after the end of the run; "
-            f"allowed: 0 to {run.time[-1]:g} s",
+            f"allowed: 0 to {end:g} s",
         )
     try:
         folder = _output_folder(run, arguments.output)

@@ -4,7 +4,7 @@ import os
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Optional, Tuple
 
 import numpy as np
 
@@ -28,6 +28,18 @@ class Frames:
     def at(self, time: float) -> int:
         """Index of the frame nearest to a time [s]."""
         return int(np.argmin(np.abs(self.times - time)))
+
+    def between(self, time: float) -> Tuple[np.ndarray, np.ndarray]:
+        """Points (P, 3) and held points (A, 3) [m] at a time [s], linear between frames."""
+        after = int(np.clip(np.searchsorted(self.times, time), 1, max(len(self.times) - 1, 1)))
+        after = min(after, len(self.times) - 1)
+        before = max(after - 1, 0)
+        span = float(self.times[after] - self.times[before])
+        share = min(max((time - float(self.times[before])) / span, 0.0), 1.0) if span else 0.0
+        return tuple(
+            (1.0 - share) * values[before].astype(float) + share * values[after].astype(float)
+            for values in (self.points, self.agents)
+        )
 
 
 def read_frames(run: RunData) -> Frames:

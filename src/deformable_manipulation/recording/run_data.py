@@ -3,7 +3,7 @@
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping, Optional, Tuple
+from typing import List, Mapping, Optional, Tuple
 
 import numpy as np
 
@@ -50,6 +50,14 @@ class RunData:
     notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
     scenario: str = ""  # its name; empty: not recorded
     namespace: str = ""  # of its topics in a bag, such as /left
+
+    @property
+    def time_range(self) -> Tuple[float, float]:
+        """From the first cycle to the end of the last one [s]; one second of a single cycle."""
+        start, last = float(self.time[0]), float(self.time[-1])
+        if last == start:
+            return start, start + 1.0
+        return start, round(last + (last - start) / (len(self.time) - 1), 6)
 
 
 def read_run(path, namespace: Optional[str] = None) -> RunData:
@@ -117,8 +125,17 @@ def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
     return float(np.median(finite)) if finite.size else None
 
 
+def holds_run(folder: Path) -> bool:
+    """Whether a folder has what read_run reads in it, or several of it."""
+    return (folder / run_files.TIMESERIES).exists() or bool(_bags(folder))
+
+
+def _bags(folder: Path) -> List[Path]:
+    return sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
+
+
 def _only_bag(folder: Path) -> Path:
-    bags = sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
+    bags = _bags(folder)
     if not bags:
         raise RunDataError(f"{folder} holds neither {run_files.TIMESERIES} nor a bag")
     if len(bags) > 1:
