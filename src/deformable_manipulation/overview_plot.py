@@ -1,5 +1,6 @@
 """One figure for a whole run: where everything was, and how near to the limits."""
 
+from itertools import cycle
 from typing import List, Optional, Sequence
 
 import numpy as np
@@ -12,6 +13,7 @@ from deformable_manipulation.plotting import (
     COLUMN_WIDTH,
     DISTANCE_RANGE,
     STYLE,
+    legend_above,
     title_of,
 )
 from deformable_manipulation.recording.frames import Frames
@@ -53,19 +55,15 @@ def plot_overview(
         for axis in (distance, error, margin):
             axis.set_xlim(*run.time_range)
             axis.tick_params(labelbottom=axis is margin)
-            for time, colour in zip(chosen, COLOURS):
+            for time, colour in zip(chosen, cycle(COLOURS)):
                 axis.axvline(time, color=colour, linewidth=0.8, zorder=0)
         margin.set_xlabel("time [s]")
         figure.align_ylabels((view, distance, error, margin))
         figure.suptitle(title_of(run), fontsize=STYLE["font.size"])
-        view.legend(
-            handles=[
-                Line2D([], [], color=colour, label=f"{time:g} s")
-                for time, colour in zip(chosen, COLOURS)
-            ],
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncols=len(chosen),
+        legend_above(
+            view,
+            [Line2D([], [], color=colour) for _, colour in zip(chosen, cycle(COLOURS))],
+            [f"{time:g} s" for time in chosen],
         )
     return figure
 
@@ -108,7 +106,7 @@ def _plot_errors(axis, run: RunData) -> None:
     axis.set_ylabel("error [m]")
     axis.set_ylim(bottom=0.0)
     if len(run.assistants) > 1:
-        axis.legend(ncols=len(run.assistants), loc="lower right", bbox_to_anchor=(1.0, 1.0))
+        legend_above(axis, *axis.get_legend_handles_labels())
 
 
 def _plot_margins(axis, run: RunData) -> None:

@@ -1,9 +1,10 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
-from typing import List, Optional, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -16,6 +17,7 @@ from deformable_manipulation.recording.timeseries import AXES
 COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
+_LEGEND_LINE, _LEGEND_HANDLE = 56, 5  # letters, that fit above a panel and in place of a handle
 RESOLUTION = 300  # dots per inch of pixel formats
 MOVING = 1e-4  # m/s, velocity components that stay below are left out
 # Farther than this many offsets from the obstacle, distances say nothing about safety, and showing
@@ -196,13 +198,16 @@ def _mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: flo
     return True
 
 
-def _legend_above(axis: Axes) -> None:
-    """A legend in one line above a panel, where it hides no data; none without labels."""
-    handles, labels = axis.get_legend_handles_labels()
+def legend_above(axis: Axes, handles: Sequence[Artist], labels: Sequence[str]) -> None:
+    """A legend above a panel, where it hides no data: in one line, or more where names are long."""
     if handles:
-        axis.legend(
-            handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles)
-        )
+        letters = max(map(len, labels)) + _LEGEND_HANDLE
+        columns = min(len(handles), max(1, _LEGEND_LINE // letters))
+        axis.legend(handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns)
+
+
+def _legend_above(axis: Axes) -> None:
+    legend_above(axis, *axis.get_legend_handles_labels())
 
 
 def _with_lowest(name: str, values: np.ndarray) -> str:

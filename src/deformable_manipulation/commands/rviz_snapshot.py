@@ -31,7 +31,7 @@ EXAMPLES = """examples:
   rviz_snapshot my_scenario.yaml --output figures --size 1920x1080 --view YZ
   rviz_snapshot rope_one_assistant --set controller.collision.offset=0.1
 
-The pictures are named SCENARIO_tTIME.png; their paths are printed.
+The pictures are named SCENARIO_tTIME.png or ..._LAYOUT.png; their paths are printed.
 exit status: 0 every picture is saved, 1 one is not (the reason is on stderr), 2 wrong usage
 """
 

@@ -2,8 +2,9 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
-from typing import Iterator, List, Optional, Sequence, Tuple
+from typing import Iterator, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from deformable_manipulation.commands.snapshot_source import SnapshotSource
 from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
 from deformable_manipulation.ros.label_marker import time_labels
 from deformable_manipulation.ros.picture import save_png
-from deformable_manipulation.ros.picture_layout import labelled, overlaid, side_by_side
+from deformable_manipulation.ros.picture_layout import is_alike, labelled, overlaid, side_by_side
 from deformable_manipulation.ros.rviz_view import without
 from deformable_manipulation.ros.video_file import RATE, video_file
 
@@ -21,20 +22,21 @@ SEPARATE, OVERLAID, SIDE_BY_SIDE = LAYOUTS = ("separate", "overlaid", "side_by_s
 VIDEO_LENGTH = 20.0  # s, unless a speed is given
 _ROW_LETTERS, _VIDEO_LETTERS = 1 / 12, 1 / 25  # of the pictures' height
 
-# What several times have in common, and what of several times would hide each other.
-_COMMON = ("trails", LABELS)
+# Of several times over each other some markers are not shown, and the trails are below the others.
 _CROWDED = ("agent_names", "copies", "copy_distances", "distances")
+_TRAILS = "trails"
+_LOOKS = 15  # in a row, at a picture that may stay empty, for one at rest
 _MOVING = ("object", "object_lines", "agents")
 
 
-def picture_name(scenario: str, times: Sequence[float]) -> str:
-    """A picture's file name, such as ``rope_t060.png`` or ``rope_t007.25_t060.png``."""
+def picture_name(scenario: str, times: Sequence[float], layout: str = SEPARATE) -> str:
+    """A picture's file name, such as ``rope_t060.png`` or ``rope_t007.25_t060_overlaid.png``."""
     texts = []
     for time in times:
         whole, _, fraction = f"{time:.3f}".partition(".")
         fraction = fraction.rstrip("0")
         texts.append("_t{:0>3}{}".format(whole, "." + fraction if fraction else ""))
-    return "{}{}.png".format(scenario, "".join(texts))
+    return scenario + "".join(texts) + ("" if layout == SEPARATE else f"_{layout}") + ".png"
 
 
 def film_times(first: float, last: float, speed: Optional[float]) -> Tuple[np.ndarray, float]:
@@ -69,17 +71,17 @@ class SnapshotPictures:
         Raises ProgramError, OSError.
         """
         if layout == OVERLAID:
-            self._save(self._overlaid(times), times)
+            self._save(self._overlaid(times), times, layout)
         elif layout == SIDE_BY_SIDE:
             height = round(_ROW_LETTERS * self._options.size[1])
             pictures = [
                 labelled(picture, f"{time:g} s", height)
                 for time, picture in zip(times, self._pictures(times, self._configuration))
             ]
-            self._save(side_by_side(pictures), times)
+            self._save(side_by_side(pictures), times, layout)
         else:
             for time, picture in zip(times, self._pictures(times, self._configuration)):
-                self._save(picture, [time])
+                self._save(picture, [time], layout)
 
     def film(self, path: Path, speed: Optional[float]) -> None:
         """A video of the whole run. Raises ProgramError, OSError."""
@@ -99,22 +101,24 @@ class SnapshotPictures:
 
     def _overlaid(self, times: Sequence[float]) -> np.ndarray:
         pictures, places = [], []
-        for picture in self._pictures(times, self._without(*_CROWDED, *_COMMON)):
+        for picture in self._pictures(times, self._without(*_CROWDED, _TRAILS)):
             pictures.append(picture)
             places.append(self._studio.leader)
-        print(f"{NAME}: taking the picture that they are laid over", file=sys.stderr)
+        print(f"{NAME}: taking pictures of what lies below and above them", file=sys.stderr)
         self._studio.labels = time_labels(times, places)
         targets = [f"target_{agent.name}" for agent in self._source.scenario.agents]
         moving = (*_CROWDED, *_MOVING, *targets)
-        base, empty = (
+        base, empty, labels = (
             self._studio.take(
                 self._without(*moving, *hidden),
                 self._options.timeout,
-                shows=lambda picture: True,  # there may be no obstacle
+                # There may be no obstacle, which would tell that RViz has drawn anything.
+                shows=partial(is_alike, pictures[-1]),
+                same_looks=_LOOKS,
             )
-            for hidden in ((), _COMMON)
+            for hidden in ((LABELS,), (LABELS, _TRAILS), (_TRAILS,))
         )
-        return overlaid(base, empty, pictures)
+        return overlaid(base, empty, pictures, labels)
 
     def _without(self, *namespaces: str) -> dict:
         return without(self._configuration, namespaces)
@@ -129,8 +133,8 @@ class SnapshotPictures:
             print(f"{NAME}: taking the picture", file=sys.stderr)
             yield self._studio.take(configuration, self._options.timeout)
 
-    def _save(self, picture: np.ndarray, times: List[float]) -> None:
+    def _save(self, picture: np.ndarray, times: Sequence[float], layout: str) -> None:
         scenario = self._source.scenario.name
-        path = self._options.output / picture_name(scenario, times)
+        path = self._options.output / picture_name(scenario, times, layout)
         save_png(picture, path, "{} at {} s".format(scenario, ", ".join(f"{t:g}" for t in times)))
         print(path, flush=True)

@@ -3,6 +3,7 @@
 import numpy as np
 
 _DIFFERENT = 12  # of 255, in a channel, from the picture without what moves
+_ALIKE = 0.5  # of the pixels of pictures of the same view
 _PALEST = 0.45  # opacity of the earliest of overlaid pictures
 _GAP = 8  # pixels between pictures side by side
 _WHITE = 255
@@ -10,17 +11,24 @@ _INK = (26, 26, 26)
 _MARGIN = 0.4  # of the letters' height, around a label
 
 
-def overlaid(base, empty, pictures):
+def is_alike(picture, other):
+    """Whether most of two pictures is the same: the background, and what stands still."""
+    difference = np.abs(picture.astype(int) - other).max(axis=2)
+    return np.mean(difference <= _DIFFERENT) > _ALIKE
+
+
+def overlaid(base, empty, pictures, top):
     """Pictures (height, width, 3) over each other, the earlier ones paler.
 
     Args:
         base: what they are laid over.
         empty: the pictures without what moves.
         pictures: in their order; what they differ in from the empty one is laid over the base.
+        top: a picture that is laid over them all in the same way.
     """
     result = base.astype(float)
     opacities = np.linspace(_PALEST, 1.0, len(pictures)) if len(pictures) > 1 else [1.0]
-    for picture, opacity in zip(pictures, opacities):
+    for picture, opacity in zip([*pictures, top], [*opacities, 1.0]):
         difference = np.abs(picture.astype(int) - empty).max(axis=2)
         moves = difference > _DIFFERENT
         result[moves] += opacity * (picture[moves] - result[moves])

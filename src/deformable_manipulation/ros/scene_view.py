@@ -61,8 +61,8 @@ def fitted(configuration, bounds, size, plane=None):
         configuration: whose present view is an Orbit or a TopDownOrtho.
         bounds: (2, 3) [m], lower and upper corner.
         size: of the picture, width and height in pixels.
-        plane: of planar obstacles, which an Orbit view named Perspective looks at; None: it keeps
-            its direction.
+        plane: of planar obstacles, ``yz`` or ``xz``, which the view named Perspective looks at;
+            another: it keeps its direction.
 
     Raises:
         KeyError, TypeError: it is no configuration of RViz.
@@ -112,9 +112,10 @@ def _fit_grid(grid, center, extent, plane):
     """As large as the scene and more, behind it or, without a plane, where it is."""
     offset = dict(zip("XYZ", center.tolist()))
     if plane == "xz":
-        grid["Plane"], offset["Y"] = "XZ", _BEHIND
-    elif plane is not None:
-        offset["X"] = -_BEHIND
+        grid["Plane"] = "XZ"
+        offset["Y"] += _BEHIND
+    elif plane == "yz":
+        offset["X"] -= _BEHIND
     else:
         offset["Z"] = grid["Offset"]["Z"]
     cells = 4.0 * float(np.linalg.norm(extent)) / grid["Cell Size"]

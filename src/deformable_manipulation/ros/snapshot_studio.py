@@ -10,7 +10,7 @@ from visualization_msgs.msg import MarkerArray
 from deformable_manipulation.ros.label_marker import label_markers
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.marker_watch import MarkerWatch
-from deformable_manipulation.ros.picture import PictureAtRest, shows_scene
+from deformable_manipulation.ros.picture import PictureAtRest
 from deformable_manipulation.ros.private_master import private_master
 from deformable_manipulation.ros.program import ProgramCrashed
 from deformable_manipulation.ros.rviz_view import rviz_view, with_frame_rate
@@ -75,7 +75,7 @@ class SnapshotStudio:
         state = self.run.state
         return state.agent_positions.reshape(-1, 3)[list(state.agents).index(self._leader)].copy()
 
-    def take(self, configuration, timeout, shows=shows_scene):
+    def take(self, configuration, timeout, **looks):
         """The picture (height, width, 3) of the present state.
 
         Each picture has an RViz of its own, which has never seen another state, and which costs
@@ -83,13 +83,13 @@ class SnapshotStudio:
 
         Args:
             timeout: s, for RViz to show the state.
-            shows: whether a picture shows what it is to show.
+            looks: options of PictureAtRest.
 
         Raises:
             ProgramError: RViz ended, or the scene was not shown in time.
         """
         with contextlib.ExitStack() as stack:
-            return self._open(stack, configuration, timeout, shows)[1]
+            return self._open(stack, configuration, timeout, looks)[1]
 
     def film(self, configuration, times, timeout):
         """Pictures (height, width, 3) of a PlayedRun at some times [s], one after the other.
@@ -102,7 +102,7 @@ class SnapshotStudio:
         self.run.rewind()
         with contextlib.ExitStack() as stack:
             configuration = with_frame_rate(configuration, _FILM_RATE)
-            view, _ = self._open(stack, configuration, timeout, shows_scene)
+            view, _ = self._open(stack, configuration, timeout, {})
             publishers = view.publishers(MarkerWatch.topic)
             watch = MarkerWatch(self.run.state.header.stamp, times=1)
             stack.callback(watch.close)
@@ -115,7 +115,7 @@ class SnapshotStudio:
                     view.program, timeout, shows=_anything, period=1.0 / _FILM_RATE, same_looks=2
                 )
 
-    def _open(self, stack, configuration, timeout, shows):
+    def _open(self, stack, configuration, timeout, looks):
         """A view that shows the present state, and its picture."""
         for attempt in range(_CRASHES + 1):
             with contextlib.ExitStack() as attempted:
@@ -123,7 +123,7 @@ class SnapshotStudio:
                     view = attempted.enter_context(
                         rviz_view(configuration, self._display, self._directory)
                     )
-                    picture = self._first_picture(view, timeout, shows)
+                    picture = self._first_picture(view, timeout, looks)
                 except ProgramCrashed as crash:
                     if attempt == _CRASHES:
                         raise
@@ -132,7 +132,7 @@ class SnapshotStudio:
                 stack.push(attempted.pop_all())
                 return view, picture
 
-    def _first_picture(self, view, timeout, shows):
+    def _first_picture(self, view, timeout, looks):
         self._markers.show(self.run.state)
         topic = MarkerWatch.topic
         publishers = view.program.wait_until(
@@ -142,7 +142,7 @@ class SnapshotStudio:
         )
         with contextlib.closing(MarkerWatch(self.run.state.header.stamp)) as watch:
             self._await_markers(view.program, watch, publishers, timeout)
-        return self._await_rest(view.program, timeout, shows=shows)
+        return self._await_rest(view.program, timeout, **looks)
 
     def _await_markers(self, rviz, watch, publishers, timeout):
         def are_drawn():
