@@ -76,10 +76,10 @@ class SnapshotCommandTest(unittest.TestCase):
 
 def orange_height(picture):
     """The mean row of the agents' balls, from the top."""
-    return orange_rows(picture).mean()
+    return np.nonzero(is_orange(picture))[0].mean()
 
 
-def orange_rows(picture):
-    """Rows of the pixels of the agents' balls."""
+def is_orange(picture):
+    """Which pixels (height, width) are of the agents' balls."""
     red, green, blue = np.moveaxis(picture.astype(int), 2, 0)
-    return np.nonzero((red > 180) & (green > 100) & (green < 170) & (blue < 60))[0]
+    return (red > 180) & (green > 100) & (green < 170) & (blue < 60)

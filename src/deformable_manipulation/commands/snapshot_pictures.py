@@ -9,6 +9,12 @@ from typing import Iterator, Optional, Sequence, Tuple
 import numpy as np
 
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.snapshot_arguments import (
+    NAME,
+    OVERLAID,
+    SEPARATE,
+    SIDE_BY_SIDE,
+)
 from deformable_manipulation.commands.snapshot_source import SnapshotSource
 from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
 from deformable_manipulation.ros.label_marker import time_labels
@@ -17,13 +23,13 @@ from deformable_manipulation.ros.picture_layout import is_alike, labelled, overl
 from deformable_manipulation.ros.rviz_view import without
 from deformable_manipulation.ros.video_file import RATE, video_file
 
-NAME = "rviz_snapshot"
-SEPARATE, OVERLAID, SIDE_BY_SIDE = LAYOUTS = ("separate", "overlaid", "side_by_side")
 VIDEO_LENGTH = 20.0  # s, unless a speed is given
 _ROW_LETTERS, _VIDEO_LETTERS = 1 / 12, 1 / 25  # of the pictures' height
 
-# Of several times over each other some markers are not shown, and the trails are below the others.
-_CROWDED = ("agent_names", "copies", "copy_distances", "distances")
+# Not shown where several times are in one picture: letters that would be too small to be read, and
+# what would hide other times. The trails are below the rest.
+_SMALL = ("agent_names", "copy_distances", "distances")
+_CROWDED = (*_SMALL, "copies")
 _TRAILS = "trails"
 _LOOKS = 15  # in a row, at a picture that may stay empty, for one at rest
 _MOVING = ("object", "object_lines", "agents")
@@ -76,7 +82,7 @@ class SnapshotPictures:
             height = round(_ROW_LETTERS * self._options.size[1])
             pictures = [
                 labelled(picture, f"{time:g} s", height)
-                for time, picture in zip(times, self._pictures(times, self._configuration))
+                for time, picture in zip(times, self._pictures(times, self._without(*_SMALL)))
             ]
             self._save(side_by_side(pictures), times, layout)
         else:

@@ -2,7 +2,8 @@ import pytest
 from synthetic_run import make_record, make_scenario
 
 from deformable_manipulation.commands.arguments import times_of
-from deformable_manipulation.commands.rviz_snapshot import main, own_configuration, size_of
+from deformable_manipulation.commands.rviz_snapshot import main, own_configuration
+from deformable_manipulation.commands.snapshot_arguments import size_of
 from deformable_manipulation.commands.snapshot_pictures import film_times, picture_name
 from deformable_manipulation.commands.snapshot_source import read_source
 from deformable_manipulation.recording import RunRecorder
