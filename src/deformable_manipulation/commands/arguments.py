@@ -8,11 +8,13 @@ from typing import List, Sequence, Tuple
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
 
 
-def add_scenario_arguments(parser: argparse.ArgumentParser) -> None:
+def add_scenario_arguments(
+    parser: argparse.ArgumentParser,
+    name: str = "scenario",
+    description: str = "scenario file (YAML), or the name of a scenario of this package",
+) -> None:
     """Add the scenario, and ``--set`` to replace values of it."""
-    parser.add_argument(
-        "scenario", help="scenario file (YAML), or the name of a scenario of this package"
-    )
+    parser.add_argument(name, help=description)
     parser.add_argument(
         "--set",
         metavar="KEY.PATH=VALUE",

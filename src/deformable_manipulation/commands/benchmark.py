@@ -114,7 +114,3 @@ def _warn(value: float) -> None:
 
 def _say(what: str) -> None:
     print(f"{NAME}: {what}", file=sys.stderr, flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -133,7 +133,3 @@ def summary(scenario: Scenario) -> Iterator[str]:
     yield "duration: {:g} s, {} cycles at {:g} Hz".format(
         scenario.simulation.duration, scenario.cycles, scenario.controller.rate
     )
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -240,7 +240,3 @@ def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> N
             file.write(scenario_to_yaml(varied))
     offset = campaign.scenario.controller.collision.offset
     save_figure(plot_campaign(outcomes, offset, campaign.scenario.name), folder / "campaign.png")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -148,7 +148,3 @@ def _finish(recorder: RunRecorder, wall_time: float, completed: bool) -> bool:
     print(describe(summary))
     print(f"written to {recorder.directory}")
     return True
-
-
-if __name__ == "__main__":
-    sys.exit(main())

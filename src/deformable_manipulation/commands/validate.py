@@ -114,7 +114,3 @@ def _write(results, folder: Path) -> Path:
     path = folder / PAGE
     path.write_text(report(results, links), encoding="utf-8")
     return path
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -86,7 +86,7 @@ class Team:
         leader = positions[self._scenario.leader_index]
         drawn = MarkerArray()
         for name, decision in decisions.items():
-            drawn.markers += target_markers(header, name, leader, decision).markers
+            drawn.markers += target_markers(header, name, leader, decision.target).markers
         return drawn
 
     def _enable(self, name, request):
