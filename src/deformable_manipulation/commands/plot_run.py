@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import times_of
+from deformable_manipulation.commands.arguments import folder_name, times_of
 from deformable_manipulation.recording import RunData, RunDataError, read_run
 from deformable_manipulation.recording.frames import read_frames
 
@@ -58,7 +58,12 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("path", help="run folder, bag, or folder that holds one bag")
-    parser.add_argument("--output", metavar="DIR", help="where to write (default: beside the run)")
+    parser.add_argument(
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="where to write (default: beside the run)",
+    )
     parser.add_argument(
         "--format",
         type=_formats,
@@ -113,11 +118,11 @@ def _window(title: str):
     return pyplot.figure(title)
 
 
-def _save(run: RunData, figures, output: Optional[str], formats: Sequence[str]) -> None:
+def _save(run: RunData, figures, output: Optional[Path], formats: Sequence[str]) -> None:
     from deformable_manipulation.plotting import save_figure
 
     is_folder = run.path.is_dir()
-    folder = Path(output) if output else (run.path if is_folder else run.path.parent)
+    folder = output or (run.path if is_folder else run.path.parent)
     folder.mkdir(parents=True, exist_ok=True)
     prefix = "" if is_folder else run.name + "_"
     for name, figure in figures.items():

@@ -6,19 +6,16 @@ import tempfile
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments, times_of
+from deformable_manipulation.authoring.rviz_choice import rviz_configuration
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name, times_of
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible
-from deformable_manipulation.scenario import (
-    ScenarioError,
-    load_scenario,
-    package_share_directory,
-)
+from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.spec import Scenario
 
 NAME = "rviz_snapshot"
-DEFAULT_CONFIGURATION = "rope_one_assistant"
 LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
 DESCRIPTION = """Save pictures of a scenario as RViz shows it. Runs the scenario in lock-step on a
 ROS master of its own, stops it at each time, and takes a picture of RViz on a virtual display.
@@ -78,7 +75,11 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="when to take pictures, separated by commas (default: half of the duration)",
     )
     parser.add_argument(
-        "--output", metavar="DIR", type=Path, default=Path("."), help="folder (default: this one)"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        default=Path("."),
+        help="folder (default: this one)",
     )
     parser.add_argument(
         "--size",
@@ -93,7 +94,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="FILE",
         type=Path,
         help="RViz configuration (default: that of the scenario, "
-        f"or of {DEFAULT_CONFIGURATION} where it has none)",
+        "or one of this package for objects of its type where it has none)",
     )
     parser.add_argument(
         "--timeout",
@@ -124,19 +125,14 @@ def picture_name(scenario: str, time: float) -> str:
     return "{}_t{:0>3}{}.png".format(scenario, whole, "." + fraction if fraction else "")
 
 
-def configuration_path(scenario: str) -> Path:
-    """The scenario's RViz configuration, or that of the first scenario where it has none."""
-    folder = package_share_directory() / "rviz"
-    path = folder / f"{scenario}.rviz"
-    return path if path.is_file() else folder / f"{DEFAULT_CONFIGURATION}.rviz"
-
-
 def _take_all(scenario: Scenario, times: Sequence[float], arguments: argparse.Namespace) -> None:
     from deformable_manipulation.ros.picture import save_png
     from deformable_manipulation.ros.rviz_view import read_configuration
     from deformable_manipulation.ros.snapshot_studio import snapshot_studio
 
-    source = arguments.config or configuration_path(scenario.name)
+    source = arguments.config or rviz_configuration(
+        find_scenario(arguments.scenario).resolve(), scenario
+    )
     configuration = read_configuration(source, arguments.view, arguments.size)
     progress = ProgressDisplay(sys.stderr)
     with tempfile.TemporaryDirectory(prefix=NAME + "_") as directory:

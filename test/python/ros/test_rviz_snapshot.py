@@ -1,7 +1,6 @@
 import pytest
 
 from deformable_manipulation.commands.rviz_snapshot import (
-    configuration_path,
     main,
     picture_name,
     size_of,
@@ -52,7 +51,3 @@ def test_pictures_are_named_by_scenario_and_time(time, name):
     assert picture_name("a", time) == name
 
 
-def test_a_scenario_without_a_configuration_gets_the_first_one():
-    assert configuration_path("rope_one_assistant").stem == "rope_one_assistant"
-    assert configuration_path("something_else").stem == "rope_one_assistant"
-    assert configuration_path("something_else").is_file()
