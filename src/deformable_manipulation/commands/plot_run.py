@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import times_of
+from deformable_manipulation.commands.arguments import folder_name, times_of
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
@@ -64,7 +64,12 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("path", help="run folder, bag, or folder that holds one bag")
-    parser.add_argument("--output", metavar="DIR", help="where to write (default: beside the run)")
+    parser.add_argument(
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="where to write (default: beside the run)",
+    )
     parser.add_argument(
         "--format",
         type=_formats,
@@ -119,9 +124,9 @@ def _window(title: str):
     return pyplot.figure(title)
 
 
-def _output_folder(run: RunData, output: Optional[str]) -> Path:
+def _output_folder(run: RunData, output: Optional[Path]) -> Path:
     beside = run.path if run.path.is_dir() else run.path.parent
-    return writable_folder(Path(output) if output else beside)
+    return writable_folder(output or beside)
 
 
 def _save(figures, folder: Path, prefix: str, formats: Sequence[str]) -> List[Path]:

@@ -15,7 +15,7 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
 from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording.provenance import machine, package_version
@@ -125,7 +125,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--no-safety", dest="safety", action="store_false", help="switch the safety filter off"
     )
     parser.add_argument(
-        "--output", metavar="DIR", help="default: output/campaign_<scenario>_<time>"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="default: output/campaign_<scenario>_<time>",
     )
     return parser.parse_args(argv)
 
@@ -168,7 +171,7 @@ def _ranges(arguments: argparse.Namespace) -> Ranges:
 
 def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
-    folder = Path(arguments.output) if arguments.output else default
+    folder = arguments.output or default
     folder.mkdir(parents=True, exist_ok=True)
     if (folder / "campaign.json").exists():
         raise FileExistsError(f"{folder} holds a campaign already; choose another --output")

@@ -7,16 +7,14 @@ from functools import partial
 from pathlib import Path
 from typing import Optional, Sequence
 
+from deformable_manipulation.authoring.rviz_choice import own_configuration, rviz_configuration
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.snapshot_arguments import NAME, parse_arguments
 from deformable_manipulation.commands.snapshot_source import SnapshotSource, read_source
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording import RunDataError
-from deformable_manipulation.scenario import ScenarioError, package_share_directory
-
-DEFAULT_CONFIGURATION = "rope_one_assistant"  # of planar obstacles
-SPATIAL_CONFIGURATION = "fabric_three_assistants"
+from deformable_manipulation.scenario import ScenarioError
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -75,23 +73,17 @@ def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
         writable_folder(arguments.output)
 
 
-def own_configuration(scenario: str) -> Optional[Path]:
-    """The RViz configuration of a scenario of this package; None: it has none."""
-    path = package_share_directory() / "rviz" / f"{scenario}.rviz"
-    return path if path.is_file() else None
-
-
 def _configuration(source: SnapshotSource, arguments: argparse.Namespace) -> dict:
     """RViz's configuration, as of YAML. Raises ProgramError."""
     from deformable_manipulation.ros.rviz_view import read_configuration
     from deformable_manipulation.ros.scene_view import fitted, plane_of
 
-    path = arguments.config or own_configuration(source.scenario.name)
+    path = arguments.config or own_configuration(source.scenario, source.file)
     if path is not None:
         return read_configuration(path, arguments.view, arguments.size)
+    other = rviz_configuration(source.file, source.scenario)
+    configuration = read_configuration(other, arguments.view, arguments.size)
     plane = plane_of(source.scenario)
-    other = DEFAULT_CONFIGURATION if plane in ("yz", "xz") else SPATIAL_CONFIGURATION
-    configuration = read_configuration(own_configuration(other), arguments.view, arguments.size)
     return fitted(configuration, source.bounds(), arguments.size, plane)
 
 

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments, times_of
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name, times_of
 
 NAME = "rviz_snapshot"
 LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
@@ -70,7 +70,11 @@ def parse_arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
 
 def _add_picture_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--output", metavar="DIR", type=Path, default=Path("."), help="folder (default: this one)"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        default=Path("."),
+        help="folder (default: this one)",
     )
     parser.add_argument(
         "--size",

@@ -22,6 +22,7 @@ class SnapshotSource:
     scenario: Scenario
     run: Optional[RunData] = None
     frames: Optional[Frames] = None
+    file: Optional[Path] = None  # of the scenario, where it was read from one
 
     @property
     def time_range(self) -> Tuple[float, float]:
@@ -60,7 +61,8 @@ def read_source(
     if not _is_run(path):
         if namespace is not None:
             raise RunDataError("--namespace is for bags; a scenario has none")
-        return SnapshotSource(load_scenario(path, overrides))
+        file = find_scenario(path).resolve()
+        return SnapshotSource(load_scenario(path, overrides), file=file)
     if overrides:
         raise RunDataError(f"--set cannot change {path}, which has been run already")
     run = read_run(path, namespace)

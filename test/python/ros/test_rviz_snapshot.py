@@ -2,7 +2,7 @@ import pytest
 from synthetic_run import make_record, make_scenario
 
 from deformable_manipulation.commands.arguments import times_of
-from deformable_manipulation.commands.rviz_snapshot import main, own_configuration
+from deformable_manipulation.commands.rviz_snapshot import main
 from deformable_manipulation.commands.snapshot_arguments import size_of
 from deformable_manipulation.commands.snapshot_pictures import film_times, picture_name
 from deformable_manipulation.commands.snapshot_source import read_source
@@ -54,11 +54,6 @@ def test_pictures_are_named_by_scenario_and_time(time, name):
 
 def test_a_picture_of_several_times_is_named_by_all_of_them():
     assert picture_name("a", [7.25, 60], "overlaid") == "a_t007.25_t060_overlaid.png"
-
-
-def test_only_scenarios_of_the_package_have_a_configuration_of_their_own():
-    assert own_configuration("rope_one_assistant").is_file()
-    assert own_configuration("something_else") is None
 
 
 @pytest.fixture
