@@ -4,7 +4,6 @@ import argparse
 import sys
 import tempfile
 from functools import partial
-from pathlib import Path
 from typing import Optional, Sequence
 
 from deformable_manipulation.authoring.rviz_choice import own_configuration, rviz_configuration

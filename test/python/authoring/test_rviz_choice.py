@@ -34,4 +34,5 @@ def test_none_of_its_own(tmp_path):
     nameless = load_scenario("rope_one_assistant", [("name", "nameless")])
     assert own_configuration(nameless) is None
     assert own_configuration(nameless, tmp_path / "x.yaml") is None
-    assert own_configuration(load_scenario("rope_one_assistant")) == RVIZ / "rope_one_assistant.rviz"
+    own = own_configuration(load_scenario("rope_one_assistant"))
+    assert own == RVIZ / "rope_one_assistant.rviz"
