@@ -48,8 +48,7 @@ class ClosedLoop:
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
-        self._obstacles.move(self._distance, self._simulation.time)
-        return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
+        return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.

@@ -24,7 +24,6 @@ class Observer:
         """The present state; its points are valid until the next call."""
         simulation = self._simulation
         points = simulation.points(out=self._points)
-        self._obstacles.move(self._distance, simulation.time)
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,
@@ -33,9 +32,14 @@ class Observer:
             displaced_agents=simulation.displaced_agents(),
             displacements=simulation.displacements(),
             ready=simulation.ready(),
-            distances=self._distance.compute(points),
+            distances=self.distances_of(points),
             sensitivities=self._sensitivities(),
         )
+
+    def distances_of(self, points):
+        """The distances of copies' points (C, P, 3) [m] from the obstacles as they stand now."""
+        self._obstacles.move(self._distance, self._simulation.time)
+        return self._distance.compute(points)
 
     def obstacle_poses(self):
         """Where the moving obstacles were when last looked at, (K, 7)."""
