@@ -17,6 +17,7 @@ from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_files import atomic_file
@@ -52,6 +53,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except (ScenarioError, NoVariation, OSError) as error:
         print(f"run_campaign: {error}", file=sys.stderr)
         return 1
+    warn_of_standing_obstacles("run_campaign", scenario)
     with interruptible():
         return _run(campaign, arguments, folder)
 

@@ -137,6 +137,17 @@ def test_without_leader_velocity_and_shares_it_is_the_papers_row():
     np.testing.assert_allclose(rows.bounds, -alpha)
 
 
+def test_the_velocity_of_obstacles_may_be_left_out():
+    _, _, _, velocities, features = setting(2, 5)
+    standing = Features(
+        features.distance, features.normal, 0.0 * features.normal, features.gradients
+    )
+    scene = situation(velocities, 0.02)
+    left_out = barriers(2, obstacle_velocity=False)[0].rows(features, scene)
+    np.testing.assert_array_equal(left_out.bounds, barriers(2)[0].rows(standing, scene).bounds)
+    assert abs(left_out.bounds - barriers(2)[0].rows(features, scene).bounds).min() > 1e-3
+
+
 def test_a_feature_that_nobody_moves_is_shared_equally():
     normal = np.array([[0.0, 0.0, 1.0]])
     gradients = np.zeros((1, 3, 3))
