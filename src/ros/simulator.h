@@ -42,6 +42,7 @@ class Simulator {
 
   void waitForNodes();
   void publish();
+  void addMeasuredVelocities();
   void addResponse();
   void awaitCommands();
   void awaitTick();
