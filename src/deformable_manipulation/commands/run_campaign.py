@@ -16,6 +16,7 @@ from deformable_manipulation.campaign.report import describe, is_acceptable, sum
 from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.interruption import exit_status, interruptible
@@ -39,6 +40,7 @@ EPILOG = """examples:
 The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
 deadlocked, and no program failed; 3 otherwise.
 """
+_FASTEST = 2.0  # m/s, of a leader
 UNACCEPTABLE = 3  # exit status: the campaign was done, and something in it went wrong
 
 
@@ -75,7 +77,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     parser.add_argument(
         "--speed",
-        type=_positive(float),
+        type=_speed,
         default=defaults.speed,
         metavar="M/S",
         help="that no component of the leader's velocity exceeds (%(default)s)",
@@ -106,6 +108,13 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         dest="terrain",
         action="store_false",
         help="keep the obstacles of the scenario",
+    )
+    parser.add_argument(
+        "--imperfect",
+        action="store_true",
+        help="the controllers know less than all, each by a random amount: noise up to 2 mm and "
+        "delay up to 50 ms on poses, material wrong by up to a factor of 2, up to 20 %% of the "
+        "cycles dropped",
     )
     parser.add_argument(
         "--tolerance",
@@ -146,6 +155,16 @@ def _positive(kind):
     return convert
 
 
+def _speed(text):
+    value = _positive(float)(text)
+    if value > _FASTEST:
+        raise argparse.ArgumentTypeError(
+            f"'{text}': must be at most {_FASTEST:g} m/s; assistants move at "
+            f"controller.max_velocity, and nobody can answer a leader that is much faster"
+        )
+    return value
+
+
 def _natural(text):
     value = int(text)
     if value < 0:
@@ -174,9 +193,15 @@ def _ranges(arguments: argparse.Namespace) -> Ranges:
 def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
     folder = arguments.output or default
-    folder.mkdir(parents=True, exist_ok=True)
     if (folder / "campaign.json").exists():
         raise FileExistsError(f"{folder} holds a campaign already; choose another --output")
+    try:
+        writable_folder(folder)  # now, not after hours of runs
+    except OSError as error:
+        raise OSError(
+            f"cannot write into {folder}: {error.strerror}; choose a folder you may write to with "
+            f"--output"
+        ) from error
     return folder
 
 

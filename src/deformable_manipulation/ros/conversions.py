@@ -66,6 +66,7 @@ def to_observation(state, distances, scenario) -> Observation:
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
         distances=distances,
+        velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
     )
 
@@ -76,6 +77,14 @@ def require_frame(name, message, scenario):
         raise MessageError(
             f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
         )
+
+
+def _measured_velocities(state, order):
+    """(A, 3) [m/s] in the scenario's order, or None. Raises MessageError."""
+    if not len(state.measured_velocities):
+        return None
+    shape = (len(state.agents), 3)
+    return _reshaped(state.measured_velocities, "measured_velocities", shape)[order]
 
 
 def _sensitivities(state, order):

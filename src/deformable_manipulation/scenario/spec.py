@@ -237,7 +237,7 @@ class ControllerSpec:
     feedforward: bool = True  # leader's velocity in the nominal law and in the rows
     solver: str = "native"  # of the quadratic program; others: those of qpsolvers
     timeout: float = 0.2  # s, age at which an input counts as lost
-    pose_smoothing: float = 0.1  # s, time constant of the filter of measured poses
+    pose_smoothing: float = 0.2  # s, time constant of the filter of measured poses
 
 
 @dataclass(frozen=True)

@@ -86,6 +86,19 @@ def test_an_observation_is_the_simulation_s_state(state, distances, simulation, 
     assert not seen.ready[-1] and seen.ready[:-1].all()
 
 
+def test_measured_velocities_come_in_the_scenario_s_order(state, distances, scenario):
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    assert seen.velocities is None
+    velocities = np.arange(3.0 * len(state.agents)).reshape(-1, 3)
+    state.measured_velocities = velocities.ravel()
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    order = conversions.agent_order(state, scenario)
+    np.testing.assert_array_equal(seen.velocities, velocities[order])
+    state.measured_velocities = np.zeros(2)
+    with pytest.raises(conversions.MessageError, match="measured_velocities"):
+        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+
+
 def test_distances_arrive_as_they_were_computed(distances, computed):
     received = conversions.to_distances(transmitted(distances))
     for name in vars(computed):
