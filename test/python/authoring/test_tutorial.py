@@ -1,4 +1,4 @@
-"""docs/tutorial.md: what needs no ROS is done; test/rostest/test_tutorial.py does the rest."""
+"""docs/tutorial.md: what needs no ROS is done; the rest is done by test_tutorial.py of rostest."""
 
 import importlib
 import xml.etree.ElementTree as ElementTree
