@@ -1,5 +1,6 @@
 #include "deformable_manipulation/control/position_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,20 +18,23 @@ bool PositionFilter::update(double time, const Eigen::Ref<const Eigen::VectorXd>
   if (!std::isfinite(time) || !position.allFinite()) {
     return false;
   }
-  if (!known_ || position.size() != position_.size()) {
+  if (known_ == 0 || position.size() != position_.size()) {
     position_ = position;
     velocity_.setZero(position.size());
+    known_ = 0;
   } else if (time <= time_) {
     return false;
   } else {
     const double interval = time - time_;
     const double theta = time_constant_ > 0.0 ? std::exp(-interval / time_constant_) : 0.0;
+    const double n = static_cast<double>(known_);
+    const double first = 1.0 / ((n + 1.0) * (n + 2.0));
     position_ += interval * velocity_;
-    velocity_ += (1.0 - theta) * (1.0 - theta) / interval * (position - position_);
-    position_ += (1.0 - theta * theta) * (position - position_);
+    velocity_ += std::max((1.0 - theta) * (1.0 - theta), 6.0 * first) / interval * (position - position_);
+    position_ += std::max(1.0 - theta * theta, (4.0 * n + 2.0) * first) * (position - position_);
   }
   time_ = time;
-  known_ = true;
+  ++known_;
   return true;
 }
 

@@ -17,7 +17,7 @@ from deformable_manipulation.recording.timeseries import AXES
 COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
-_LEGEND_LINE, _LEGEND_HANDLE = 56, 5  # letters, that fit above a panel and in place of a handle
+_LEGEND_LINE, _LEGEND_HANDLE = 58, 5  # letters, that fit above a panel and in place of a handle
 RESOLUTION = 300  # dots per inch of pixel formats
 MOVING = 1e-4  # m/s, velocity components that stay below are left out
 # Farther than this many offsets from the obstacle, distances say nothing about safety, and showing

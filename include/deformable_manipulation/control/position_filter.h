@@ -13,6 +13,9 @@ namespace control {
 //!
 //!   position += (1 - theta^2) r,   velocity += (1 - theta)^2 r / dt.
 //!
+//! The first measurements weigh alike, so that a motion that is under way is followed at once: with n of them before,
+//! the gains are at least 2 (2 n + 1) / ((n + 1) (n + 2)) and 6 / ((n + 1) (n + 2)).
+//!
 //! Motion of constant velocity is followed without lag; an acceleration a leaves the position a tau^2 behind and the
 //! velocity 2 a tau. White noise s in the measurements leaves 1.1 s (dt / tau)^(1/2) in the position, and in the
 //! velocity s / (2 dt) (dt / tau)^(3/2). A time constant of zero passes the measurements and their differences on.
@@ -24,13 +27,13 @@ class PositionFilter {
   explicit PositionFilter(double time_constant);
 
   //! Forgets all measurements.
-  void reset() { known_ = false; }
+  void reset() { known_ = 0; }
 
   //! Takes in positions [m] measured at a time [s].
   //! @return whether they were accepted: finite, and newer than all before
   bool update(double time, const Eigen::Ref<const Eigen::VectorXd>& position);
 
-  bool hasPosition() const { return known_; }
+  bool hasPosition() const { return known_ > 0; }
 
   //! Positions [m] at a time, at constant velocity from the newest measurements on.
   Eigen::VectorXd position(double time) const { return position_ + (time - time_) * velocity_; }
@@ -40,7 +43,7 @@ class PositionFilter {
 
  private:
   double time_constant_;
-  bool known_ = false;
+  long known_ = 0;  // measurements since the start
   double time_ = 0.0;
   Eigen::VectorXd position_;
   Eigen::VectorXd velocity_;

@@ -20,6 +20,20 @@ def test_constant_velocity_is_followed_and_predicted_without_lag():
     np.testing.assert_allclose(result.position(5.05), 5.05 * velocity, atol=1e-12)
 
 
+def test_a_motion_that_is_under_way_is_followed_at_once():
+    result = fed(0.2, [np.full(3, 1.0 + 0.15 * index * CYCLE) for index in range(3)])
+    np.testing.assert_allclose(result.velocity(), 0.15, rtol=1e-12)
+    np.testing.assert_allclose(result.position(1.0), 1.15, rtol=1e-12)
+
+
+def test_the_first_measurements_are_fitted_by_a_line_of_least_squares():
+    noisy = np.random.default_rng(2).standard_normal((6, 1))
+    result = fed(10.0, noisy)
+    slope, start = np.polyfit(CYCLE * np.arange(6), noisy[:, 0], 1)
+    assert result.velocity()[0] == pytest.approx(slope, rel=1e-9)
+    assert result.position(0.0)[0] == pytest.approx(start, rel=1e-9)
+
+
 def test_without_a_time_constant_measurements_and_their_differences_pass():
     result = fed(0.0, [np.zeros(3), np.full(3, 0.001)])
     np.testing.assert_allclose(result.position(CYCLE), np.full(3, 0.001), rtol=1e-15)
