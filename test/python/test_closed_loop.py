@@ -189,7 +189,7 @@ def test_the_command_records_what_the_loop_does(recorded, safe):
     assert set(summary["tracking_error"]) == {"assistant_1"}
     error = safe[-1].decisions["assistant_1"].error_norm
     assert summary["tracking_error"]["assistant_1"]["final"] == pytest.approx(error, abs=1e-9)
-    assert set(summary["timing"]) == {"simulation", "distance", "controller"}
+    assert set(summary["timing"]) == {"simulation", "distance", "controller", "solver"}
     assert all(timing["median_ms"] > 0.0 for timing in summary["timing"].values())
 
 

@@ -48,8 +48,8 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
     """What is wrong with a launch's arguments for a correct scenario."""
     if arguments.assistants is not None:
         yield from _assistant_problems(arguments, scenario)
-        yield from _cooperation_problems(arguments, scenario)
         yield from _knowledge_problems(scenario)
+    yield from _cooperation_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",

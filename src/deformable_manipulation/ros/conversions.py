@@ -98,8 +98,10 @@ def _sensitivities(state, order):
 def to_distances(message) -> Distances:
     """The core's result from a ``Distances`` message.
 
-    Raises MessageError: an array's size does not fit.
+    Raises MessageError: an array's size does not fit, or the message tells a fault.
     """
+    if message.fault:
+        raise MessageError(message.fault)
     features = len(message.feature_distances)
     vectors = (features, 3)
     return Distances(

@@ -197,10 +197,11 @@ def test_distances_that_are_unusable_say_so(state, scenario):
         distances_message(), state, Distances.unknown(copies, ("ground",)), 0.0, fault="it is lost"
     )
     with pytest.raises(MessageError, match="^it is lost$"):
-        conversions.to_observation(transmitted(state), transmitted(message), scenario)
+        conversions.to_distances(transmitted(message))
     message.fault = ""
     # Nor are they taken for those of a run without obstacles.
-    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    unknown = conversions.to_distances(transmitted(message))
+    seen = conversions.to_observation(transmitted(state), unknown, scenario)
     assert "distances.minimum" in find_fault(seen, len(FILE_ORDER))
 
 
