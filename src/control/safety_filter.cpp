@@ -56,6 +56,7 @@ const Filtered& SafetyFilter::filter(const Eigen::VectorXd& nominal, const Const
     throw std::invalid_argument("nominal, lower, upper and rows must have as many components as there are weights");
   }
   result_.rows = rows.size();
+  result_.rows_act = false;
   result_.slack.fill(0.0);
   result_.status = decide({nominal, rows, lower, upper});
   if (result_.status == Status::FAILED) {
@@ -79,7 +80,8 @@ Status SafetyFilter::decide(const Given& given) {
   // With a diagonal cost, clipping is the optimum over the bounds alone, and so the optimum altogether if it
   // satisfies the rows.
   result_.velocity = given.nominal.cwiseMax(given.lower).cwiseMin(given.upper);
-  if (!holds(given)) {
+  result_.rows_act = !holds(given);
+  if (result_.rows_act) {
     if (!solve(given)) {
       return Status::FAILED;
     }

@@ -14,10 +14,6 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool isAnswer(Status status) {
-  return status == Status::NOMINAL || status == Status::CONSTRAINED || status == Status::RELAXED;
-}
-
 //! The filter's status, as far as it concerns one assistant.
 Status statusOf(const Filtered& result, const Decision& decision) {
   if (result.status != Status::NOMINAL && result.status != Status::CONSTRAINED) {
@@ -71,6 +67,7 @@ void TeamController::forget() {
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.leader);
+  taking.departure.setZero();  // it was from another nominal velocity
 }
 
 bool TeamController::isAnswered(double time) {
@@ -127,10 +124,9 @@ void TeamController::conclude() {
     Decision& decision = decisions_[i];
     if (!members_[i].enabled) {
       decision.status = Status::DISABLED;
+      members_[i].departure.setZero();
     }
     members_[i].command = decision.command;
-    members_[i].departure =
-        isAnswer(decision.status) ? Vector3(decision.command - decision.nominal) : Vector3(Vector3::Zero());
   }
 }
 
@@ -267,8 +263,20 @@ void TeamController::passFiltered() {
     decision.solve_time = solve_time;
     decision.command = result.velocity.segment<3>(3 * i);
     decision.status = statusOf(result, decision);
+    keepDeparture(result.rows_act, decision, members_[i]);
     decision.rows = result.rows;
     decision.slack = result.slack;
+  }
+}
+
+//! What the rows make of the nominal velocity lasts, what the bounds alone make of it does not.
+void TeamController::keepDeparture(bool rows_act, const Decision& decision, Member& member) const {
+  if (decision.status == Status::FAILED) {
+    member.departure.setZero();
+  } else if (rows_act) {
+    member.departure = decision.command - decision.nominal;
+  } else {
+    member.departure *= kept_;
   }
 }
 

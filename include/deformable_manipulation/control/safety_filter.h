@@ -27,6 +27,7 @@ struct Filtered {
   Status status = Status::FAILED;        //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
   std::array<double, TIERS> slack = {};  //!< [m/s] by how much the rows of each tier are missed at most
   int rows = 0;
+  bool rows_act = false;  //!< the bounds alone would allow another velocity
 };
 
 //! The velocity nearest to the nominal one that the constraints allow.

@@ -98,7 +98,7 @@ class TeamController {
     int agent;          // index
     Vector3 reference;  // [m]
     Vector3 command;    // [m/s] the last one, which acts until the next does
-    Vector3 departure;  // [m/s] of it from its nominal velocity
+    Vector3 departure;  // [m/s] of it from its nominal velocity, by the rows
     bool enabled;
   };
 
@@ -114,6 +114,7 @@ class TeamController {
   void setBounds();
   void passUnfiltered();
   void passFiltered();
+  void keepDeparture(bool rows_act, const Decision& decision, Member& member) const;
   void conclude();
 
   ControllerParameters parameters_;

@@ -59,6 +59,32 @@ def test_the_steady_answers_are_those_without(smooth, tilted):
         np.testing.assert_allclose(smooth[k].command, sharp[k].command, atol=1e-5)
 
 
+def test_a_reference_taken_is_kept_at_once():
+    """Nothing is left of the departure from the former one."""
+    scenario = build.scenario(smoothing=T)
+    positions = np.array([agent.start for agent in scenario.agents]) + [[0, 0, 0], [0, 0, 0.4]]
+    controller = AssistantController(scenario, "assistant_1")
+    chain = build.hanging_chain(2, sag=0.3, points=3)
+    for k in range(301):
+        observation = build.observe(0.01 * k, positions, chain, ground(0.0))
+        if k == 300:
+            controller.take_reference(observation)
+        decision = controller.update(observation)
+    assert np.abs(decision.nominal).max() < 0.01
+    np.testing.assert_allclose(decision.command, 0.0, atol=0.011)
+
+
+def test_bounds_alone_leave_no_departure():
+    """Far from obstacles a leader that starts at once is followed at the full acceleration."""
+    scenario = build.scenario(smoothing=T)
+    controller = AssistantController(scenario, "assistant_1")
+    chain, start = build.hanging_chain(2, sag=0.3), [agent.start for agent in scenario.agents]
+    for k in range(13):
+        moved = np.array(start) + [[0.0, 0.001 * k, 0.0], [0.0, 0.0, 0.0]]
+        decision = controller.update(build.observe(0.01 * k, moved, chain, None))
+    np.testing.assert_allclose(decision.command, decision.nominal, atol=1e-12)
+
+
 def test_the_way_back_begins_smoothly_and_is_the_nominal_one():
     released = answers(T, [0.0] * 300 + [None] * 400)
     departures = [np.linalg.norm(each.command - each.nominal) for each in released[299:]]
