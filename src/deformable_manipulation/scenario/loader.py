@@ -126,7 +126,6 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
             function(report, *(parts[key] for key in keys))
 
     check(checks.check_loop, "controller")
-    check(checks.check_jacobian, "object", "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(checks.check_starts, "object", "agents")
