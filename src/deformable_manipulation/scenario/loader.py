@@ -130,7 +130,6 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
 
     check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
-    check(checks.check_jacobian, "object", "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")

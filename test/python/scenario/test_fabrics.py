@@ -43,7 +43,6 @@ WRONG_VALUES = [
     ("object.segments", 3, "known keys: type, material, size, resolution, mesh"),
     ("agents.helper.particle", 25, "0 to 24"),
     ("agents.helper.start", [1.1, 0.0, 1.0], "beyond the free length 1 m"),
-    ("controller.jacobian", "equilibrium", "for rods only"),
     ("simulation.solver", "direct", "of a rod's joints; remove it"),
     ("simulation.substeps", "many", "or auto"),
 ]
