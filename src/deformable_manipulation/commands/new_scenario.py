@@ -180,7 +180,3 @@ def _next_steps(places: Places, name: str) -> List[str]:
         f"  rviz_snapshot {files[0]}",
         f"  roslaunch {files[1]}",
     ]
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -140,7 +140,3 @@ def _make(plan: Plan) -> None:
 
 def _say(text: str) -> None:
     print(f"{NAME}: {text}", file=sys.stderr, flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

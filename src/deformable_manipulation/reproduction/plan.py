@@ -7,6 +7,8 @@ from typing import Dict, List, Sequence, Tuple
 
 from deformable_manipulation.commands.run_campaign import UNACCEPTABLE
 from deformable_manipulation.reproduction.jobs import Job
+from deformable_manipulation.scenario import load_scenario
+from deformable_manipulation.scenario.spec import FabricSpec
 
 FULL, PAPER, UNFILTERED = "full", "paper", "filter_off"
 # What makes each variant of a run, and what the report calls it.
@@ -15,6 +17,7 @@ VARIANTS: Dict[str, Tuple[str, Tuple[str, ...]]] = {
     PAPER: ("paper's formulation", ("--set", "controller.formulation=paper")),
     UNFILTERED: ("safety filter off", ("--no-safety",)),
 }
+_SNAPSHOTS = (30 / 160, 60 / 160, 130 / 160, 1.0)  # of the duration
 _CAMPAIGN_SEED = 1
 _CAMPAIGN_DURATION = 60  # s, of each run
 
@@ -85,6 +88,7 @@ class Plan:
                 f"picture of {name}",
                 "rviz_snapshot",
                 str(self.run_folder(name, FULL)),
+                *_snapshot_options(name, self.overrides),
                 "--output",
                 str(self.figure_folder(name)),
             )
@@ -113,6 +117,16 @@ class Plan:
         return [text for key, value in self.overrides for text in ("--set", f"{key}={value}")]
 
     def _job(self, title: str, command: str, *arguments: str, accepted=(0,)) -> Job:
-        module = f"deformable_manipulation.commands.{command}"
+        program = (sys.executable, "-m", "deformable_manipulation.commands", command)
         log = self.folder / "logs" / (title.replace(" ", "_").replace(",", "") + ".log")
-        return Job(title, (sys.executable, "-m", module, *arguments), log, accepted)
+        return Job(title, (*program, *arguments), log, accepted)
+
+
+def _snapshot_options(scenario: str, overrides: Sequence[Tuple[str, str]]) -> Tuple[str, ...]:
+    """Times as in the paper's figures; what would hide itself or its obstacle stands in a row."""
+    loaded = load_scenario(scenario, overrides)
+    times = [share * loaded.simulation.duration for share in _SNAPSHOTS]
+    moves = any(obstacle.motion for obstacle in loaded.obstacles)
+    in_a_row = moves or isinstance(loaded.object, FabricSpec)
+    layout = ("side_by_side", "--size", "640x480") if in_a_row else ("overlaid",)
+    return ("--times", ",".join(f"{time:.2f}" for time in times), "--layout", *layout)
