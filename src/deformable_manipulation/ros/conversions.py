@@ -41,20 +41,13 @@ def agent_positions(state, scenario) -> np.ndarray:
 
 
 def to_observation(state, distances, scenario) -> Observation:
-    """What a controller sees, from an ``ObjectState`` and the ``Distances`` of the same cycle.
+    """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
     Time counts from the start of the run: cycles of the scenario's rate.
 
-    Raises MessageError: another frame, an array's size does not fit, an agent is missing, or the
-    distances are unusable by what they say themselves.
+    Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
-    if distances.fault:
-        raise MessageError(distances.fault)
-    for name, message in (("state", state), ("distances", distances)):
-        if message.header.frame_id != scenario.frame:
-            raise MessageError(
-                f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
-            )
+    require_frame("state", state, scenario)
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
     scenario_index[order] = np.arange(len(order))
@@ -72,9 +65,26 @@ def to_observation(state, distances, scenario) -> Observation:
         displaced_agents=scenario_index[displaced],
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
-        distances=to_distances(distances),
+        distances=distances,
+        velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
     )
+
+
+def require_frame(name, message, scenario):
+    """Raises MessageError: a message, called so, is not in the scenario's frame."""
+    if message.header.frame_id != scenario.frame:
+        raise MessageError(
+            f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
+        )
+
+
+def _measured_velocities(state, order):
+    """(A, 3) [m/s] in the scenario's order, or None. Raises MessageError."""
+    if not len(state.measured_velocities):
+        return None
+    shape = (len(state.agents), 3)
+    return _reshaped(state.measured_velocities, "measured_velocities", shape)[order]
 
 
 def _sensitivities(state, order):
@@ -88,8 +98,10 @@ def _sensitivities(state, order):
 def to_distances(message) -> Distances:
     """The core's result from a ``Distances`` message.
 
-    Raises MessageError: an array's size does not fit.
+    Raises MessageError: an array's size does not fit, or the message tells a fault.
     """
+    if message.fault:
+        raise MessageError(message.fault)
     features = len(message.feature_distances)
     vectors = (features, 3)
     return Distances(

@@ -55,6 +55,7 @@ class MotionReader:
 
     fields = {key: section.fields[key] for key, section in _KINDS.items()}
     defaults = {}
+    others = ()
     allowed = "a section with one of the keys {}".format(", ".join(_KINDS))
 
     def __call__(self, node: Node) -> Motion:
