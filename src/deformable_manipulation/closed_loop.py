@@ -3,9 +3,9 @@
 import time
 from typing import Dict
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.imperfect import ImperfectKnowledge, true_scenario
 from deformable_manipulation.leader import LeaderController
@@ -22,7 +22,8 @@ class ClosedLoop:
     """Runs a scenario in lock-step: the same order and delay as the nodes (docs/interfaces.md).
 
     In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
-    commands of cycle k - 1, and then takes the new ones.
+    commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
+    those whose poses come from a topic or from tf stand where the scenario puts them.
 
     Raises _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
     """
@@ -36,10 +37,7 @@ class ClosedLoop:
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
-        self._controllers = {
-            index: AssistantController(scenario, scenario.agents[index].name, safety)
-            for index in scenario.assistants
-        }
+        self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
         self._observer = Observer(scenario, self._simulation, self._distance, perfect)
         self._knowledge = None
         if not perfect:
@@ -50,7 +48,7 @@ class ClosedLoop:
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
-        return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
+        return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
@@ -85,8 +83,9 @@ class ClosedLoop:
         advancing = time.perf_counter()
         simulation.advance()
         simulation.set_command(leader, leader_velocity)
-        for index, decision in decisions.items():
-            simulation.set_command(index, decision.command)
+        for index in self._scenario.assistants:
+            name = self._scenario.agents[index].name
+            simulation.set_command(index, decisions[name].command)
         advanced = time.perf_counter()
 
         return CycleRecord(
@@ -97,9 +96,8 @@ class ClosedLoop:
             positions=observation.positions,
             velocities=velocities,
             points=points,
-            decisions={
-                self._scenario.agents[index].name: decision for index, decision in decisions.items()
-            },
+            obstacles=self._observer.obstacle_poses(),
+            decisions=decisions,
             timings=CycleTimings(
                 simulation=advanced - advancing,
                 distance=measured - started,
@@ -107,12 +105,14 @@ class ClosedLoop:
             ),
         )
 
-    def _decide(self, observation: Observation) -> Dict[int, Decision]:
+    def _decide(self, observation: Observation) -> Dict[str, Decision]:
+        """The decisions of all assistants by their names."""
         if self._knowledge is not None:
             return self._knowledge.decide(observation)
-        return {
-            index: controller.update(observation) for index, controller in self._controllers.items()
-        }
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(observation))
+        return decisions
 
 
 def make_minimum_distance(scenario: Scenario):

@@ -4,7 +4,7 @@ import dataclasses
 import math
 from collections import deque
 from functools import singledispatch
-from typing import Dict, Mapping
+from typing import Dict, Sequence
 
 import numpy as np
 
@@ -20,34 +20,38 @@ _LARGEST_SPEED = 2.0  # m/s, at which a model follows poses: PoseInbox::kMaxSpee
 
 
 class ImperfectController:
-    """An assistant's controller that sees a model of the object instead of the object itself.
+    """A controller that sees a model of the object instead of the object itself.
 
     What it decides is told with the true places, distances and margins.
 
     Args:
         scenario: the scenario as it is assumed to be.
-        index: of the assistant among the agents.
-        controller: its AssistantController.
+        controller: TeamController.
         random: numpy's Generator, of the cycles that are dropped.
     """
 
-    def __init__(self, scenario: Scenario, index: int, controller, random: np.random.Generator):
+    def __init__(self, scenario: Scenario, controller, random: np.random.Generator):
         self._controller = controller
         self._random = random
         self._dropped = scenario.knowledge.dropped_cycles
         self._timeout = scenario.controller.timeout
         self._answered = 0.0  # s, time of the newest state that came
-        self._decision = controller.wait("no state has come yet")
-        self._truth = _Truth(scenario, index)
+        self._decisions = controller.wait("no state has come yet")
+        self._truths = {
+            scenario.agents[index].name: _Truth(scenario, index) for index in scenario.assistants
+        }
 
-    def update(self, seen: Observation, truth: Observation) -> Decision:
-        """Decide the velocity; where the state does not come, the last command goes on."""
+    def update(self, seen: Observation, truth: Observation) -> Dict[str, Decision]:
+        """Decide the velocities; where the state does not come, the last commands go on."""
         if self._random.random() >= self._dropped:
             self._answered = seen.time
-            self._decision = self._controller.update(seen)
+            self._decisions = self._controller.update(seen)
         elif seen.time - self._answered > self._timeout:
-            self._decision = self._controller.wait("no state has come for too long")
-        return self._truth.told(self._decision, truth)
+            self._decisions = self._controller.wait("no state has come for too long")
+        return {
+            name: self._truths[name].told(decision, truth)
+            for name, decision in self._decisions.items()
+        }
 
 
 class _Truth:
@@ -91,11 +95,11 @@ class ImperfectKnowledge:
 
     Args:
         scenario: the scenario as it is assumed to be; its ``knowledge`` says what is wrong.
-        controllers: AssistantController of each assistant by its index.
+        controllers: TeamControllers of all assistants.
         distance: MinimumDistance or one like it, for the model.
     """
 
-    def __init__(self, scenario: Scenario, controllers: Mapping[int, object], distance):
+    def __init__(self, scenario: Scenario, controllers: Sequence, distance):
         knowledge = scenario.knowledge
         self._cycle_time = scenario.cycle_time
         self._model = make_simulation(scenario)
@@ -109,12 +113,11 @@ class ImperfectKnowledge:
         self._delay = knowledge.pose_delay
         self._filter = PositionFilter(scenario.controller.pose_smoothing)
         drops = np.random.default_rng([knowledge.seed, 1])
-        self._controllers = {
-            index: ImperfectController(scenario, index, controller, drops)
-            for index, controller in controllers.items()
-        }
+        self._controllers = [
+            ImperfectController(scenario, controller, drops) for controller in controllers
+        ]
 
-    def decide(self, truth: Observation) -> Dict[int, Decision]:
+    def decide(self, truth: Observation) -> Dict[str, Decision]:
         """The decisions of all assistants on a state of which they get the measured poses.
 
         :param truth: one state after the other, with the object's own distances.
@@ -123,9 +126,10 @@ class ImperfectKnowledge:
         if truth.cycle > 0:
             self._follow(self._filter.position(truth.time))
         seen = dataclasses.replace(self._observer.observe(), velocities=self._filter.velocity())
-        return {
-            index: controller.update(seen, truth) for index, controller in self._controllers.items()
-        }
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(seen, truth))
+        return decisions
 
     def _follow(self, positions: np.ndarray) -> None:
         """Advance the model to the next state, with its held points going to ``positions``."""

@@ -6,7 +6,6 @@ import dataclasses
 import json
 import re
 import sys
-import tempfile
 import time
 from pathlib import Path
 from typing import List, Optional, Sequence
@@ -16,8 +15,10 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
 from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_files import atomic_file
@@ -54,6 +55,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except (ScenarioError, NoVariation, OSError) as error:
         print(f"run_campaign: {error}", file=sys.stderr)
         return 1
+    warn_of_standing_obstacles("run_campaign", scenario)
     with interruptible():
         return _run(campaign, arguments, folder)
 
@@ -134,7 +136,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--no-safety", dest="safety", action="store_false", help="switch the safety filter off"
     )
     parser.add_argument(
-        "--output", metavar="DIR", help="default: output/campaign_<scenario>_<time>"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="default: output/campaign_<scenario>_<time>",
     )
     return parser.parse_args(argv)
 
@@ -187,12 +192,11 @@ def _ranges(arguments: argparse.Namespace) -> Ranges:
 
 def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
-    folder = Path(arguments.output) if arguments.output else default
+    folder = arguments.output or default
     if (folder / "campaign.json").exists():
         raise FileExistsError(f"{folder} holds a campaign already; choose another --output")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=folder).close()  # now, not after hours of runs
+        writable_folder(folder)  # now, not after hours of runs
     except OSError as error:
         raise OSError(
             f"cannot write into {folder}: {error.strerror}; choose a folder you may write to with "
@@ -266,7 +270,3 @@ def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> N
             file.write(scenario_to_yaml(varied))
     offset = campaign.scenario.controller.collision.offset
     save_figure(plot_campaign(outcomes, offset, campaign.scenario.name), folder / "campaign.png")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

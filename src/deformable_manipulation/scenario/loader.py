@@ -11,6 +11,7 @@ from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import check_formulation
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
+from deformable_manipulation.scenario.motions import check_frames
 from deformable_manipulation.scenario.names import FRAME, ONE_LINE
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import read_obstacles
@@ -127,8 +128,8 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
         if all(key in parts for key in keys):
             function(report, *(parts[key] for key in keys))
 
+    check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
-    check(checks.check_jacobian, "object", "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")

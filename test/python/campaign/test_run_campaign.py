@@ -92,10 +92,10 @@ def test_what_cannot_be_varied_fails_before_anything_is_written(tmp_path, capsys
 
 
 def test_a_folder_that_cannot_be_written_fails_before_any_run(tmp_path, monkeypatch, capsys):
-    def refused(dir):
+    def refused(folder):
         raise PermissionError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(run_campaign.tempfile, "TemporaryFile", refused)
+    monkeypatch.setattr(run_campaign, "writable_folder", refused)
     assert run_campaign.main([*SHORT, "--output", str(tmp_path)]) == 1
     assert f"cannot write into {tmp_path}: Permission denied" in capsys.readouterr().err
 
