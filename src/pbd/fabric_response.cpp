@@ -11,7 +11,7 @@ namespace {
 constexpr double kLargestResponse = 10.0;
 
 // Calls for which the last derivative counts on while the fabric snaps.
-constexpr int kSnapLasts = 50;
+constexpr int kSnapLasts = 300;
 
 Eigen::Map<const Vector3> vertexIn(const double* positions, int vertex) {
   return Eigen::Map<const Vector3>(positions + 3 * vertex);

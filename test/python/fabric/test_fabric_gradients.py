@@ -113,7 +113,7 @@ def test_the_last_response_counts_on_for_a_while_when_the_fabric_buckles(scenari
         simulation.set_command(agent, (-2.0, 0.0, 0.0))
     for _ in range(3):  # by 6 cm, which presses the edges at the corners together
         simulation.advance()
-    answers = [simulation.response() for _ in range(60)]
+    answers = [simulation.response() for _ in range(310)]
     np.testing.assert_array_equal(answers[0], before)
     assert "not stable" in answers[-1]
 
