@@ -24,6 +24,7 @@ struct SimulatorScenario {
   pbd::Clock clock;
   double duration = 0.0;         // s
   double command_timeout = 0.0;  // s
+  double pose_smoothing = 0.0;   // s
 };
 
 //! Reads the parameter `scenario` as check_scenario --resolved writes it.

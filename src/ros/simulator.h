@@ -1,8 +1,10 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <std_msgs/Header.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct SimulatorOptions {
   std::string pose_namespace;  // prefix of the pose topics followed
   std::string tf_prefix;       // of the agents' frames
   int state_subscribers = 0;   // to wait for before the first state
+  bool recorded = false;       // lock-step: do not get far ahead of the recorder
 };
 
 //! The simulation as a ROS node: states out, commands in (docs/interfaces.md).
@@ -42,13 +45,16 @@ class Simulator {
 
   void waitForNodes();
   void publish();
+  void addMeasuredVelocities();
   void addResponse();
   void awaitCommands();
+  void await(const std::function<std::string()>& missing);
   void awaitTick();
   void awaitPermission();
   void applyInputs();
   bool agentsAreTrue() const;
   std::string unanswered() const;
+  std::string unrecorded(long allowed) const;
   bool atEnd() const;
 
   SimulatorScenario scenario_;
@@ -56,6 +62,7 @@ class Simulator {
   pbd::Simulation simulation_;
   ros::NodeHandle node_;
   ros::Publisher state_publisher_, clock_publisher_;
+  ros::Subscriber recorder_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
   RunControl control_;
@@ -64,6 +71,7 @@ class Simulator {
   ObjectState state_;
   long published_ = 0;  // states since the start, over all resets
   long overruns_ = 0;
+  ros::Time recorded_;  // stamp up to which everything is
   SteadyClock::time_point next_tick_;
 };
 

@@ -11,15 +11,27 @@ from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
 from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
+from deformable_manipulation.obstacle_motion import MovingObstacles, obstacle_places
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
-from deformable_manipulation.scenario.spec import FabricSpec, LeaderSpec, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import (
+    FabricSpec,
+    KnowledgeSpec,
+    LeaderSpec,
+    RodSpec,
+    Scenario,
+)
 from deformable_manipulation.simulation import make_simulation
 
 _ATTEMPTS = 20
 _BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in
 _START_SHIFT = 0.05  # m, of an assistant's start
+_PLACES = 50  # of a moving obstacle on its way, which the leader's path keeps clear of
+_MOST_NOISE = 0.002  # m, of imperfect knowledge: each up to this
+_MOST_DELAY = 0.05  # s
+_LARGEST_FACTOR = 2.0  # of the material, true over assumed or the other way
+_MOST_DROPS = 0.2
 _SPARE = 0.05  # m, beyond the offset, that the object is clear at the start
 
 
@@ -36,6 +48,7 @@ class Ranges:
     clearance: float = 0.25  # m, that the leader's grip keeps from the obstacles
     material: float = 1.5  # stiffness and weight are changed by up to this factor
     terrain: bool = True  # False: the scenario's own obstacles
+    imperfect: bool = False  # True: what the controllers know is wrong, by random amounts
 
 
 def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
@@ -84,7 +97,20 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         lambda points: clearance(start + points),
         ranges.clearance,
     )
-    return dataclasses.replace(drawn, leader=LeaderSpec(tuple(path)))
+    drawn = dataclasses.replace(drawn, leader=LeaderSpec(tuple(path)))
+    # Last, so that the rest of a run is the same with it and without.
+    return dataclasses.replace(drawn, knowledge=_knowledge(random)) if ranges.imperfect else drawn
+
+
+def _knowledge(random) -> KnowledgeSpec:
+    return KnowledgeSpec(
+        pose_noise=random.uniform(0.0, _MOST_NOISE),
+        pose_delay=random.uniform(0.0, _MOST_DELAY),
+        stiffness_factor=_factor(_LARGEST_FACTOR, random),
+        density_factor=_factor(_LARGEST_FACTOR, random),
+        dropped_cycles=random.uniform(0.0, _MOST_DROPS),
+        seed=int(random.integers(2**31)),
+    )
 
 
 def _checked(scenario: Scenario, index: int) -> Scenario:
@@ -139,8 +165,14 @@ def _factor(largest: float, random) -> float:
 
 
 def _clearance(scenario: Scenario):
-    """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size."""
-    distance = MinimumDistance(scenario.obstacles, scenario.object.margin)
+    """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size.
+
+    Those that move are everywhere on their way.
+    """
+    everywhere = [
+        place for obstacle in scenario.obstacles for place in obstacle_places(obstacle, _PLACES)
+    ]
+    distance = MinimumDistance(everywhere, scenario.object.margin)
 
     def clearance(points):
         # Each point as a copy of a polyline that is nowhere else.
@@ -151,5 +183,6 @@ def _clearance(scenario: Scenario):
 
 def _starts_clear(scenario: Scenario) -> bool:
     distance = make_minimum_distance(scenario)
+    MovingObstacles(scenario).move(distance, 0.0)
     lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
     return lowest >= scenario.controller.collision.offset + _SPARE

@@ -1,6 +1,7 @@
 """The command ``check_scenario``: is a scenario file correct, and what does it hold."""
 
 import argparse
+import math
 import sys
 from itertools import combinations
 from typing import Iterator, Optional, Sequence
@@ -11,10 +12,17 @@ from deformable_manipulation.commands.launch_arguments import (
     launch_problems,
 )
 from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
-from deformable_manipulation.scenario.spec import PolygonObstacle, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import (
+    PathMotion,
+    PolygonObstacle,
+    RodSpec,
+    Scenario,
+    TopicMotion,
+)
 
 _EXAMPLES = """\
 examples:
@@ -44,6 +52,8 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print("{}: correct".format(arguments.scenario))
         for line in summary(scenario):
             print("  {}".format(line))
+        for warning in warnings(scenario, find_scenario(arguments.scenario).stem):
+            print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
     return 0
 
 
@@ -79,16 +89,68 @@ def describe_object(spec) -> str:
     )
 
 
+def describe_material(spec) -> str:
+    """What the object is made of: the values that a material preset and the scenario give."""
+    if isinstance(spec, RodSpec):
+        area = math.pi * spec.radius**2
+        return (
+            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
+            "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
+                spec.density,
+                spec.young_modulus,
+                spec.torsion_modulus,
+                spec.density * area * spec.length,
+                spec.young_modulus * area * spec.radius**2 / 4.0,
+            )
+        )
+    stiffnesses = (
+        "{:.4g} {}".format(1.0 / compliance, unit) if compliance else "rigid"
+        for compliance, unit in (
+            (spec.stretching_compliance, "N/m"),
+            (spec.bending_compliance, "N m"),
+        )
+    )
+    return "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
+        spec.density, spec.thickness, *stiffnesses
+    )
+
+
+def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
+    """What is allowed, and rarely meant; ``file_name`` is without its ending."""
+    # Imported late: loads the compiled distances, which error messages do not need.
+    from deformable_manipulation.distance.minimum_distance import MinimumDistance
+
+    if scenario.name != file_name:
+        yield "name: its runs and pictures will be called '{}', the file is called '{}'".format(
+            scenario.name, file_name
+        )
+    yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
+
+
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
-        return "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
-    return "mesh {}, scale {}".format(spec.mesh, " x ".join("{:g}".format(s) for s in spec.scale))
+        shape = "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+    else:
+        scale = " x ".join("{:g}".format(s) for s in spec.scale)
+        shape = "mesh {}, scale {}".format(spec.mesh, scale)
+    return shape if spec.motion is None else "{}, {}".format(shape, describe_motion(spec.motion))
+
+
+def describe_motion(motion) -> str:
+    """Where an obstacle's pose comes from, in a few words."""
+    if isinstance(motion, PathMotion):
+        waypoints = motion.waypoints
+        return "moves through {} waypoints, {:g} s".format(len(waypoints), waypoints[-1].time)
+    if isinstance(motion, TopicMotion):
+        return "pose from topic {}".format(motion.topic)
+    return "pose of tf frame {}".format(motion.frame)
 
 
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
     yield "object: {}".format(describe_object(scenario.object))
+    yield "material: {}".format(describe_material(scenario.object))
     for agent in scenario.agents:
         yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
             agent.name,
@@ -114,7 +176,3 @@ def summary(scenario: Scenario) -> Iterator[str]:
     yield "duration: {:g} s, {} cycles at {:g} Hz".format(
         scenario.simulation.duration, scenario.cycles, scenario.controller.rate
     )
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -41,17 +41,13 @@ def agent_positions(state, scenario) -> np.ndarray:
 
 
 def to_observation(state, distances, scenario) -> Observation:
-    """What a controller sees, from an ``ObjectState`` and the ``Distances`` of the same cycle.
+    """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
     Time counts from the start of the run: cycles of the scenario's rate.
 
     Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
-    for name, message in (("state", state), ("distances", distances)):
-        if message.header.frame_id != scenario.frame:
-            raise MessageError(
-                f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
-            )
+    require_frame("state", state, scenario)
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
     scenario_index[order] = np.arange(len(order))
@@ -69,9 +65,26 @@ def to_observation(state, distances, scenario) -> Observation:
         displaced_agents=scenario_index[displaced],
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
-        distances=to_distances(distances),
+        distances=distances,
+        velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
     )
+
+
+def require_frame(name, message, scenario):
+    """Raises MessageError: a message, called so, is not in the scenario's frame."""
+    if message.header.frame_id != scenario.frame:
+        raise MessageError(
+            f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
+        )
+
+
+def _measured_velocities(state, order):
+    """(A, 3) [m/s] in the scenario's order, or None. Raises MessageError."""
+    if not len(state.measured_velocities):
+        return None
+    shape = (len(state.agents), 3)
+    return _reshaped(state.measured_velocities, "measured_velocities", shape)[order]
 
 
 def _sensitivities(state, order):
@@ -85,8 +98,10 @@ def _sensitivities(state, order):
 def to_distances(message) -> Distances:
     """The core's result from a ``Distances`` message.
 
-    Raises MessageError: an array's size does not fit.
+    Raises MessageError: an array's size does not fit, or the message tells a fault.
     """
+    if message.fault:
+        raise MessageError(message.fault)
     features = len(message.feature_distances)
     vectors = (features, 3)
     return Distances(
@@ -99,14 +114,22 @@ def to_distances(message) -> Distances:
         normal=_reshaped(message.normals, "normals", vectors),
         vertices=_reshaped(message.feature_vertices, "feature_vertices", vectors).astype(np.int64),
         weights=_reshaped(message.feature_weights, "feature_weights", vectors),
-        obstacle_velocity=_reshaped(message.obstacle_velocities, "obstacle_velocities", vectors),
+        obstacle_velocity=_obstacle_velocities(message.obstacle_velocities, vectors),
         identity=_reshaped(message.feature_identities, "feature_identities", (features,)),
         names=tuple(message.obstacles),
     )
 
 
-def fill_distances(message, state, distances, computation_time):
-    """Write the distances of a state into a ``Distances`` message."""
+def _obstacle_velocities(values, shape):
+    """Zeros where none are told. Raises MessageError."""
+    return _reshaped(values, "obstacle_velocities", shape) if len(values) else np.zeros(shape)
+
+
+def fill_distances(message, state, distances, computation_time, moving=(), poses=(), fault=""):
+    """Write the distances of a state into a ``Distances`` message.
+
+    ``moving``: names of the K moving obstacles, ``poses``: where they are, (K, 7).
+    """
     message.header = state.header
     message.cycle = state.cycle
     message.reset_count = state.reset_count
@@ -118,10 +141,13 @@ def fill_distances(message, state, distances, computation_time):
     message.object_points = distances.object_point.ravel()
     message.obstacle_points = distances.obstacle_point.ravel()
     message.normals = distances.normal.ravel()
-    message.obstacle_velocities = distances.obstacle_velocity.ravel()
+    message.obstacle_velocities = distances.obstacle_velocity.ravel() if moving else np.zeros(0)
     message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
     message.feature_weights = distances.weights.ravel()
     message.feature_identities = _identities(distances)
+    message.moving_obstacles = list(moving)
+    message.obstacle_poses = np.ravel(poses)
+    message.fault = fault
     message.computation_time = computation_time
     return message
 

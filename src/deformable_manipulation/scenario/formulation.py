@@ -5,16 +5,23 @@ from typing import Any, Dict
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.readers import Node, Report, Section
-from deformable_manipulation.scenario.spec import ControllerSpec
+from deformable_manipulation.scenario.spec import DECENTRALISED, ControllerSpec
 
 FULL, PAPER = "full", "paper"
 
 # The paper's values: defaults with ``formulation: paper``, and nothing else is allowed there.
 _PAPERS = {
+    "cooperation": DECENTRALISED,
     "jacobian": "perturbed_copies",
     "differences": "forward",
     "feedforward": False,
-    "collision": {"margin": 0.0, "speed_margin": 0.0, "gradient": "minimum"},
+    "smoothing": 0.0,
+    "collision": {
+        "margin": 0.0,
+        "speed_margin": 0.0,
+        "obstacle_velocity": False,
+        "gradient": "minimum",
+    },
     "overstretch": {"margin": 0.0},
     "proximity": {"margin": 0.0},
 }

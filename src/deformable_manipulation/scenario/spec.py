@@ -5,6 +5,7 @@ The objects of this module hold checked values: they are made by
 :mod:`deformable_manipulation.scenario.loader`, which reports every mistake of a file at once.
 """
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Optional, Tuple, Union
 
@@ -13,6 +14,9 @@ Quaternion = Tuple[float, float, float, float]
 
 LEADER = "leader"
 ASSISTANT = "assistant"
+
+DECENTRALISED = "decentralised"
+CENTRALISED = "centralised"
 
 
 @dataclass(frozen=True)
@@ -98,6 +102,39 @@ class AgentSpec:
 
 
 @dataclass(frozen=True)
+class PoseWaypoint:
+    """Where an obstacle is at a time, relative to its own pose."""
+
+    time: float  # s
+    position: Vector = (0.0, 0.0, 0.0)  # m, added to the translation
+    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)  # turns it about its origin, after its rotation
+
+
+@dataclass(frozen=True)
+class PathMotion:
+    """An obstacle's scripted way; smooth between the waypoints, at rest before and after."""
+
+    waypoints: Tuple[PoseWaypoint, ...]
+
+
+@dataclass(frozen=True)
+class TopicMotion:
+    """An obstacle whose pose somebody publishes, as geometry_msgs/PoseStamped."""
+
+    topic: str
+
+
+@dataclass(frozen=True)
+class FrameMotion:
+    """An obstacle that is where a tf frame is."""
+
+    frame: str
+
+
+Motion = Union[PathMotion, TopicMotion, FrameMotion]
+
+
+@dataclass(frozen=True)
 class PolygonObstacle:
     """A polygon in a plane, endless along the plane's normal.
 
@@ -110,6 +147,7 @@ class PolygonObstacle:
     plane: str = "yz"  # "xy", "yz" or "xz"
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+    motion: Optional[Motion] = None  # None: it stands still
 
 
 @dataclass(frozen=True)
@@ -124,6 +162,7 @@ class MeshObstacle:
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
     scale: Vector = (1.0, 1.0, 1.0)  # m per unit of the file, along the file's axes
+    motion: Optional[Motion] = None  # None: it stands still
 
 
 @dataclass(frozen=True)
@@ -151,6 +190,7 @@ class CollisionSpec:
     margin: float = 0.002  # m, beyond the offset, that the rows keep
     speed_margin: float = 0.0  # s, more of it per m/s of the leader's speed
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
+    obstacle_velocity: bool = True  # of moving obstacles, in the rows
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
     backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
 
@@ -182,18 +222,22 @@ class ControllerSpec:
     overstretch: OverstretchSpec = OverstretchSpec()
     proximity: ProximitySpec = ProximitySpec()
     formulation: str = "full"  # "full", or "paper": its equations as they are
+    # "decentralised": each assistant on its own; "centralised": all in one quadratic program
+    cooperation: str = DECENTRALISED
     priority: Tuple[str, str, str] = ("collision", "overstretch", "proximity")  # last yields first
     rate: float = 100.0  # Hz, cycles per second
     gain: float = 1.0  # 1/s, k_p
     weights: Vector = (1.0, 1.0, 1.0)  # gamma, cost of departing from the nominal velocity per axis
     max_velocity: float = 0.15  # m/s, bound on every component
     max_acceleration: float = 1.0  # m/s^2, bound on every component
+    smoothing: float = 0.2  # s, time constant of departures from the nominal velocity; 0: none
     perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
     jacobian: str = "equilibrium"  # exact gradients where known; or "perturbed_copies"
     differences: str = "central"  # "central": copies on both sides; "forward": on one (the paper)
     feedforward: bool = True  # leader's velocity in the nominal law and in the rows
     solver: str = "native"  # of the quadratic program; others: those of qpsolvers
     timeout: float = 0.2  # s, age at which an input counts as lost
+    pose_smoothing: float = 0.2  # s, time constant of the filter of measured poses
 
 
 @dataclass(frozen=True)
@@ -209,6 +253,23 @@ class SimulationSpec:
 
 
 @dataclass(frozen=True)
+class KnowledgeSpec:
+    """What the controllers do not know exactly, in runs without ROS; the defaults are all of it."""
+
+    pose_noise: float = 0.0  # m, standard deviation per component, cycle and agent, white
+    pose_delay: float = 0.0  # s, age of the newest poses
+    stiffness_factor: float = 1.0  # of the object, true over assumed
+    density_factor: float = 1.0  # true over assumed
+    dropped_cycles: float = 0.0  # probability that a controller gets no new state in a cycle
+    seed: int = 0  # of noise and drops
+
+    @property
+    def perfect(self) -> bool:
+        """Whether the controllers see the object itself, at once and in every cycle."""
+        return dataclasses.replace(self, seed=0) == KnowledgeSpec()
+
+
+@dataclass(frozen=True)
 class Scenario:
     """A whole run: object, agents, obstacles, leader, controller, simulation."""
 
@@ -219,6 +280,7 @@ class Scenario:
     leader: LeaderSpec
     controller: ControllerSpec
     simulation: SimulationSpec
+    knowledge: KnowledgeSpec = KnowledgeSpec()
     frame: str = "map"  # the fixed frame
 
     @property

@@ -1,5 +1,6 @@
 """Messages, as a node receives them, and the core's arrays."""
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from messages import distances_message, state_message, transmitted
 
 from deformable_manipulation.closed_loop import ClosedLoop, make_minimum_distance
 from deformable_manipulation.control.observation import find_fault
+from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import conversions
 from deformable_manipulation.ros.conversions import MessageError
@@ -67,8 +69,14 @@ def distances(state, computed):
     return conversions.fill_distances(distances_message(), state, computed, 1e-3)
 
 
+def observation(state, distances, scenario):
+    """As a controller makes it of the messages that it receives."""
+    received = conversions.to_distances(transmitted(distances))
+    return conversions.to_observation(transmitted(state), received, scenario)
+
+
 def test_an_observation_is_the_simulation_s_state(state, distances, simulation, scenario):
-    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    seen = observation(state, distances, scenario)
     assert find_fault(seen, len(FILE_ORDER)) == ""
     assert (seen.cycle, seen.time) == (150, pytest.approx(1.5))
     for name in ("positions", "points", "displaced_agents", "displacements", "ready"):
@@ -76,6 +84,19 @@ def test_an_observation_is_the_simulation_s_state(state, distances, simulation, 
         np.testing.assert_array_equal(getattr(seen, name), expected, err_msg=name)
         assert getattr(seen, name).shape == expected.shape
     assert not seen.ready[-1] and seen.ready[:-1].all()
+
+
+def test_measured_velocities_come_in_the_scenario_s_order(state, distances, scenario):
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    assert seen.velocities is None
+    velocities = np.arange(3.0 * len(state.agents)).reshape(-1, 3)
+    state.measured_velocities = velocities.ravel()
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    order = conversions.agent_order(state, scenario)
+    np.testing.assert_array_equal(seen.velocities, velocities[order])
+    state.measured_velocities = np.zeros(2)
+    with pytest.raises(conversions.MessageError, match="measured_velocities"):
+        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
 
 
 def test_distances_arrive_as_they_were_computed(distances, computed):
@@ -103,7 +124,7 @@ def test_no_obstacle_gives_no_feature_and_an_infinite_distance(state, scenario, 
         obstacle_velocity=np.zeros((0, 3)),
     )
     message = conversions.fill_distances(distances_message(), state, nothing, 0.0)
-    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    seen = observation(state, message, scenario)
     assert find_fault(seen, len(FILE_ORDER)) == ""
     assert np.isinf(seen.distances.minimum).all()
 
@@ -129,26 +150,59 @@ def test_distances_carry_the_cycle_of_their_state(state, distances):
 def test_a_state_that_does_not_fit_is_refused_by_name(state, distances, scenario, field, change):
     setattr(state, field, change(state))
     with pytest.raises(MessageError, match="^" + field):
-        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+        observation(state, distances, scenario)
 
 
-@pytest.mark.parametrize("kind", ["state", "distances"])
-def test_another_frame_is_refused(state, distances, scenario, kind):
-    received = {"state": transmitted(state), "distances": transmitted(distances)}
-    received[kind].header.frame_id = "odom"
-    with pytest.raises(MessageError, match="frame_id: 'odom'.*'map'"):
-        conversions.to_observation(received["state"], received["distances"], scenario)
+def test_a_state_in_another_frame_is_refused(state, distances, scenario):
+    state.header.frame_id = "odom"
+    with pytest.raises(MessageError, match="state.header.frame_id: 'odom'.*'map'"):
+        observation(state, distances, scenario)
+
+
+def test_any_message_in_another_frame_is_refused_by_its_name(distances, scenario):
+    conversions.require_frame("distances", distances, scenario)
+    distances.header.frame_id = "odom"
+    with pytest.raises(MessageError, match="distances.header.frame_id: 'odom'.*'map'"):
+        conversions.require_frame("distances", distances, scenario)
 
 
 @pytest.mark.parametrize(
     "field",
-    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights",
-     "obstacle_velocities"],
+    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights"],
 )
 def test_distances_that_do_not_fit_are_refused_by_name(distances, field):
     setattr(distances, field, getattr(distances, field)[:-1])
     with pytest.raises(MessageError, match="^" + field):
         conversions.to_distances(transmitted(distances))
+
+
+def test_the_velocities_of_obstacles_are_sent_where_one_moves(state, computed):
+    velocity = np.arange(3.0 * len(computed.distance)).reshape(-1, 3)
+    moved = dataclasses.replace(computed, obstacle_velocity=velocity)
+    pose = np.arange(7.0)[None]
+    message = conversions.fill_distances(
+        distances_message(), state, moved, 0.0, ["ground"], pose
+    )
+    received = transmitted(message)
+    assert (received.moving_obstacles, list(received.obstacle_poses)) == (["ground"], list(pose[0]))
+    np.testing.assert_array_equal(conversions.to_distances(received).obstacle_velocity, velocity)
+    message.obstacle_velocities = message.obstacle_velocities[:-1]
+    with pytest.raises(MessageError, match="^obstacle_velocities"):
+        conversions.to_distances(transmitted(message))
+
+
+def test_distances_that_are_unusable_say_so(state, scenario):
+    copies = len(state.displaced_agents)
+    message = conversions.fill_distances(
+        distances_message(), state, Distances.unknown(copies, ("ground",)), 0.0, fault="it is lost"
+    )
+    with pytest.raises(MessageError, match="^it is lost$"):
+        conversions.to_distances(transmitted(message))
+    message.fault = ""
+    # Nor are they taken for those of a run without obstacles.
+    unknown = conversions.to_distances(transmitted(message))
+    seen = conversions.to_observation(transmitted(state), unknown, scenario)
+    assert "distances.minimum" in find_fault(seen, len(FILE_ORDER))
 
 
 def test_a_decision_as_a_message(state, scenario):

@@ -1,0 +1,96 @@
+"""The distances between the object, with all its copies, and the obstacles under ROS."""
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+import rospy
+from rospy.numpy_msg import numpy_msg
+
+from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.distance.features import Distances as DistanceFeatures
+from deformable_manipulation.msg import Distances
+from deformable_manipulation.ros import node
+from deformable_manipulation.ros.conversions import MessageError, fill_distances, points_of
+from deformable_manipulation.ros.marker_publisher import MarkerPublisher
+from deformable_manipulation.ros.obstacle_frames import ObstacleFrames
+from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
+from deformable_manipulation.ros.obstacle_tracker import ObstacleTracker
+
+
+class Computed(NamedTuple):
+    """The distances of a state."""
+
+    distances: DistanceFeatures  # of the core
+    poses: np.ndarray  # (K, 7) of the moving obstacles
+    computation_time: float  # s
+    fault: str  # why they are not known, as a clause; empty where they are
+
+
+def known_distances(computed):
+    """The core's Distances of what was computed. Raises MessageError where they are not known."""
+    if computed.fault:
+        raise MessageError(computed.fault)
+    return computed.distances
+
+
+class DistancePublisher:
+    """Computes distances of states, publishes and draws them; which node it is in does not matter.
+
+    Reads the node's parameters ``~lockstep`` and ``~tf_prefix``. Leaves the process with a message
+    if the obstacles cannot be used.
+
+    Args:
+        scenario: the checked scenario.
+    """
+
+    def __init__(self, scenario):
+        prefix = rospy.get_param("~tf_prefix", "")
+        try:
+            self._distance = make_minimum_distance(scenario)
+            obstacles = obstacle_markers(scenario.obstacles, scenario.frame, tf_prefix=prefix)
+        except ValueError as error:  # a file has gone or changed since the scenario was checked
+            node.refuse(f"The obstacles cannot be used: {error}")
+        for warning in self._distance.warnings:
+            rospy.logwarn(warning)
+        self._obstacles = ObstacleTracker(scenario)
+        self._frames = ObstacleFrames(scenario, prefix)
+        self._latch = rospy.get_param("~lockstep", False)
+        self._publisher = rospy.Publisher(
+            "distances", numpy_msg(Distances), queue_size=node.QUEUE_SIZE, latch=self._latch
+        )
+        self._markers = MarkerPublisher(self._draw, lambda: obstacles)
+        node.await_subscribers(self._publisher)
+
+    def compute(self, state):
+        """What is known about the distances of an ObjectState.
+
+        Raises MessageError: its points cannot be used.
+        """
+        started = time.perf_counter()
+        points = points_of(state)
+        fault = self._obstacles.move(self._distance, state)
+        try:
+            if fault:
+                distances = DistanceFeatures.unknown(len(points), self._distance.names)
+            else:
+                distances = self._distance.compute(points)
+        except ValueError as error:
+            raise MessageError(f"points: {error}") from error
+        elapsed = time.perf_counter() - started
+        return Computed(distances, self._obstacles.poses(), elapsed, fault)
+
+    def publish(self, state, computed):
+        """Publish and draw what :meth:`compute` gave for a state."""
+        if self._latch or self._publisher.get_num_connections():
+            distances, poses, elapsed, fault = computed
+            self._publisher.publish(
+                fill_distances(
+                    Distances(), state, distances, elapsed, self._obstacles.names, poses, fault
+                )
+            )
+        self._markers.show(computed.distances, state.header, computed.poses)
+
+    def _draw(self, distances, header, poses):
+        self._frames.send(header, poses)
+        return distance_markers(distances, header)
