@@ -42,6 +42,9 @@ class AgentLink {
   //! that is not lost. Says why not.
   bool isTrue(const pbd::Pose& present) const;
 
+  //! A clause that says why the agent's input is not used at present; empty if it is.
+  std::string fault() const;
+
   //! Forgets what has been received.
   void reset();
 

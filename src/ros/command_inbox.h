@@ -39,6 +39,9 @@ class CommandInbox {
   //! The newest command whatever its age, or rest if there is none.
   pbd::Twist command() const { return received_ ? twist_ : pbd::Twist(); }
 
+  //! Whether a command has been accepted.
+  bool known() const { return received_; }
+
   //! Forgets all commands.
   void reset() { received_ = false; }
 

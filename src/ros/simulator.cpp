@@ -29,7 +29,9 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
       simulation_(makeBody(scenario.object), scenario.agents, scenario.perturbations, scenario.clock),
       object_services_(node_, simulation_),
       control_(node_),
-      visualization_(node_, shapeOf(scenario.object), options.tf_prefix) {
+      visualization_(node_, shapeOf(scenario.object), options.tf_prefix),
+      diagnostics_(node_, simulation_, links_, control_, !shapeOf(scenario.object).triangles.empty(),
+                   options.lockstep) {
   if (!simulation_.settled()) {
     ROS_WARN(
         "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "
@@ -59,10 +61,12 @@ void Simulator::run() {
       }
     }
     control_.countCycle();
+    const SteadyClock::time_point started = SteadyClock::now();
     if (agentsAreTrue()) {
       publish();
     }
     simulation_.advance();
+    diagnostics_.countCycle(std::chrono::duration<double>(SteadyClock::now() - started).count());
     options_.lockstep ? awaitCommands() : awaitTick();
     applyInputs();
     awaitPermission();
@@ -123,6 +127,7 @@ void Simulator::publish() {
 
 void Simulator::addResponse() {
   const pbd::ResponseStatus status = fillSensitivities(simulation_, state_);
+  diagnostics_.countResponse(status);
   if (status != pbd::ResponseStatus::VALID) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
                              "The exact response of the object is not known, its perturbed copies take "
@@ -157,6 +162,7 @@ void Simulator::awaitTick() {
   next_tick_ += seconds(scenario_.clock.cycleTime());
   if (SteadyClock::now() > next_tick_) {
     ++overruns_;
+    diagnostics_.countOverrun();
     next_tick_ = SteadyClock::now();
     ROS_WARN_THROTTLE(kWarningPeriod,
                       "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.", overruns_,

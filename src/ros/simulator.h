@@ -12,6 +12,7 @@
 #include "object_services.h"
 #include "run_control.h"
 #include "scenario_reader.h"
+#include "simulator_diagnostics.h"
 #include "visualization.h"
 
 namespace deformable_manipulation {
@@ -60,6 +61,7 @@ class Simulator {
   ObjectServices object_services_;
   RunControl control_;
   Visualization visualization_;
+  SimulatorDiagnostics diagnostics_;
 
   ObjectState state_;
   long published_ = 0;  // states since the start, over all resets

@@ -14,7 +14,7 @@ from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
-from deformable_manipulation.scenario.spec import FabricSpec, LeaderSpec, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Scenario
 from deformable_manipulation.simulation import make_simulation
 
 _ATTEMPTS = 20
@@ -84,7 +84,8 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         lambda points: clearance(start + points),
         ranges.clearance,
     )
-    return dataclasses.replace(drawn, leader=LeaderSpec(tuple(path)))
+    leader = dataclasses.replace(drawn.leader, waypoints=tuple(path))
+    return dataclasses.replace(drawn, leader=leader)
 
 
 def _checked(scenario: Scenario, index: int) -> Scenario:

@@ -2,7 +2,7 @@
 
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
 from deformable_manipulation.scenario.files import package_share_directory
-from deformable_manipulation.scenario.limits import PairLimits, pair_limits
+from deformable_manipulation.scenario.limits import PairLimits, leader_workspace, pair_limits
 from deformable_manipulation.scenario.loader import load_scenario, scenario_from_mapping
 from deformable_manipulation.scenario.mapping import scenario_to_mapping, scenario_to_yaml
 
@@ -10,6 +10,7 @@ __all__ = [
     "PairLimits",
     "Problem",
     "ScenarioError",
+    "leader_workspace",
     "load_scenario",
     "package_share_directory",
     "pair_limits",

@@ -130,5 +130,6 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(checks.check_starts, "object", "agents")
+    check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")
     check(checks.check_perturbation, "object", "agents", "controller")

@@ -19,7 +19,7 @@ from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
 from deformable_manipulation.scenario.rod import POSE, ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
-from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT
+from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 
 SECTIONS = {
     "Top level": SCENARIO,
@@ -31,6 +31,7 @@ SECTIONS = {
     "obstacles: mesh": MESH_OBSTACLE,
     "leader": LEADER_PATH,
     "leader.waypoints": WAYPOINT,
+    "leader.workspace": WORKSPACE,
     "controller": CONTROLLER,
     "controller.collision": COLLISION,
     "controller.overstretch": OVERSTRETCH,

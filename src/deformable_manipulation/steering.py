@@ -1,0 +1,114 @@
+"""The leader moved by hand in place of its path."""
+
+import time
+
+import numpy as np
+
+from deformable_manipulation.bounded_motion import BoundedMotion
+from deformable_manipulation.leader import LeaderController
+from deformable_manipulation.scenario import leader_workspace
+
+# RViz repeats that a marker is held four times per second.
+DRAG_TIMEOUT = 1.0  # s
+
+PATH, DRAGGED, STEERED, RESTING = "path", "dragged", "steered", "resting"
+
+
+class SteeredLeader:
+    """The leader's velocity: along its path, or by hand from the first time that a hand takes it.
+
+    A hand drags it to a place or steers it by a velocity, within ``leader.workspace``,
+    ``leader.max_velocity`` and ``leader.max_acceleration``. Both are dead man's controls: where no
+    more comes, for ``DRAG_TIMEOUT`` or ``controller.timeout``, the leader stops. The path is taken
+    up again by :meth:`reset`.
+
+    Args:
+        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
+        follows_path: False leaves the path out: at rest until a hand takes it.
+        clock: seconds, never decreasing; for the timeouts.
+    """
+
+    def __init__(self, scenario, follows_path=True, clock=time.monotonic):
+        self._path = LeaderController(scenario)
+        self._follows_path = follows_path
+        self._clock = clock
+        self._steer_timeout = scenario.controller.timeout
+        settings = scenario.leader
+        self._motion = BoundedMotion(
+            *leader_workspace(scenario),
+            settings.max_velocity,
+            settings.max_acceleration,
+            scenario.cycle_time,
+        )
+        self.reset()
+
+    def reset(self):
+        """Back to the start: at rest, on the path again, out of everybody's hands."""
+        self._path.reset()
+        self._by_hand = not self._follows_path
+        self._velocity = [0.0, 0.0, 0.0]
+        self._time = None
+        self._target = self._wanted = None
+        self._deadline = 0.0
+
+    def drag(self, position):
+        """Go to a position (3,) [m] of the fixed frame, or the nearest in the workspace.
+
+        Raises:
+            ValueError: it is not three finite numbers; the message says so.
+        """
+        self._target, self._wanted = _three_finite(position, "position"), None
+        self._take(DRAG_TIMEOUT)
+
+    def steer(self, velocity):
+        """Move with a velocity (3,) [m/s] of the fixed frame, as far as the limits allow.
+
+        Raises:
+            ValueError: it is not three finite numbers; the message says so.
+        """
+        self._wanted, self._target = _three_finite(velocity, "velocity"), None
+        self._take(self._steer_timeout)
+
+    def release(self):
+        """Stop; on the path it stays there."""
+        self._target = self._wanted = None
+
+    @property
+    def source(self):
+        """What moves the leader: PATH, DRAGGED, STEERED or RESTING."""
+        if not self._by_hand:
+            return PATH
+        if self._target is None and self._wanted is None or self._clock() > self._deadline:
+            return RESTING
+        return STEERED if self._target is None else DRAGGED
+
+    def update(self, time, position):
+        """Velocity command [m/s] (3,) for one state; see LeaderController.update."""
+        if not self._by_hand:
+            velocity = self._path.update(time, position)
+            self._velocity, self._time = velocity.tolist(), time
+            return velocity
+        if not np.isfinite([time, *position]).all():
+            self._velocity = [0.0, 0.0, 0.0]
+        elif self._time is None or time > self._time or time < self._time - 1.0:
+            self._velocity = self._command(position)
+            self._time = time
+        return np.array(self._velocity)
+
+    def _take(self, timeout):
+        self._by_hand = True
+        self._deadline = self._clock() + timeout
+
+    def _command(self, position):
+        source = self.source
+        if source == DRAGGED:
+            return self._motion.towards(self._target, position, self._velocity)
+        wanted = self._wanted if source == STEERED else (0.0, 0.0, 0.0)
+        return self._motion.along(wanted, position, self._velocity)
+
+
+def _three_finite(values, name):
+    array = np.asarray(values, dtype=float)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise ValueError(f"the {name} is {list(values)}, allowed are three finite numbers")
+    return array.tolist()
