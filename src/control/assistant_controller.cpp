@@ -1,6 +1,7 @@
 #include "deformable_manipulation/control/assistant_controller.h"
 
 #include <chrono>
+#include <stdexcept>
 
 namespace deformable_manipulation {
 namespace control {
@@ -29,6 +30,21 @@ AssistantController::AssistantController(const ControllerParameters& p)
       lower_(3),
       upper_(3) {
   reset();
+}
+
+void AssistantController::setParameters(const ControllerParameters& p) {
+  const auto agents = static_cast<std::size_t>(positions_.size());
+  if (p.agent != parameters_.agent || p.leader != parameters_.leader || p.assistants != parameters_.assistants ||
+      p.overstretch.limits.size() != agents || p.proximity.limits.size() != agents) {
+    throw std::invalid_argument("parameters of other agents");
+  }
+  filter_.setWeights(p.weights);
+  const Formulation formulation = parameters_.formulation;
+  parameters_ = p;
+  parameters_.formulation = formulation;
+  collision_ = CollisionBarrier(p.agent, p.assistants, p.collision, p.max_velocity, formulation);
+  overstretch_ = makePair(PairBarrier::Kind::OVERSTRETCH, parameters_, p.overstretch);
+  proximity_ = makePair(PairBarrier::Kind::PROXIMITY, parameters_, p.proximity);
 }
 
 void AssistantController::reset() {

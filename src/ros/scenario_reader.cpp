@@ -8,21 +8,6 @@
 namespace deformable_manipulation {
 namespace {
 
-//! Per assistant and axis a copy on one side, or one on each.
-void addPerturbations(const ScenarioSection& controller, SimulatorScenario& scenario) {
-  const pbd::Vector3 size = controller.vector<3>("perturbation");
-  const bool central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
-  for (std::size_t agent = 0; agent < scenario.agents.size(); ++agent) {
-    for (int axis = 0; scenario.is_assistant[agent] && axis < 3; ++axis) {
-      const pbd::Vector3 displacement = size[axis] * pbd::Vector3::Unit(axis);
-      scenario.perturbations.push_back({static_cast<int>(agent), displacement});
-      if (central) {
-        scenario.perturbations.push_back({static_cast<int>(agent), -displacement});
-      }
-    }
-  }
-}
-
 void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
   const ScenarioSection agents = section.section("agents");
   for (const std::string& name : agents.keys()) {
@@ -40,6 +25,20 @@ void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
 
 }  // namespace
 
+std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size) {
+  std::vector<pbd::Perturbation> perturbations;
+  for (std::size_t agent = 0; agent < scenario.agents.size(); ++agent) {
+    for (int axis = 0; scenario.is_assistant[agent] && axis < 3; ++axis) {
+      const pbd::Vector3 displacement = size[axis] * pbd::Vector3::Unit(axis);
+      perturbations.push_back({static_cast<int>(agent), displacement});
+      if (scenario.central) {
+        perturbations.push_back({static_cast<int>(agent), -displacement});
+      }
+    }
+  }
+  return perturbations;
+}
+
 SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   pbd::ParameterCheck check;
   SimulatorScenario scenario;
@@ -50,7 +49,8 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   scenario.frame = root.text("frame");
   scenario.object = readObject(root.section("object"), simulation);
   readAgents(root, scenario);
-  addPerturbations(controller, scenario);
+  scenario.perturbation = controller.vector<3>("perturbation");
+  scenario.central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
   scenario.exact_response = controller.choice<bool>("jacobian", {{"perturbed_copies", false}, {"equilibrium", true}});
   scenario.clock.time_step = simulation.number("time_step");
   scenario.clock.substeps = simulation.integer("substeps");

@@ -26,8 +26,10 @@ void spinFor(double seconds) { ros::getGlobalCallbackQueue()->callAvailable(ros:
 Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       options_(options),
-      simulation_(makeBody(scenario.object), scenario.agents, scenario.perturbations, scenario.clock),
+      simulation_(makeBody(scenario.object), scenario.agents, perturbationsOf(scenario, scenario.perturbation),
+                  scenario.clock),
       object_services_(node_, simulation_),
+      live_perturbation_(scenario_, simulation_),
       control_(node_),
       visualization_(node_, shapeOf(scenario.object), options.tf_prefix),
       diagnostics_(node_, simulation_, links_, control_, !shapeOf(scenario.object).triangles.empty(),

@@ -9,6 +9,7 @@
 #include "agent_link.h"
 #include "deformable_manipulation/ObjectState.h"
 #include "deformable_manipulation/pbd/simulation.h"
+#include "live_perturbation.h"
 #include "object_services.h"
 #include "run_control.h"
 #include "scenario_reader.h"
@@ -59,6 +60,7 @@ class Simulator {
   ros::Publisher state_publisher_, clock_publisher_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
+  LivePerturbation live_perturbation_;
   RunControl control_;
   Visualization visualization_;
   SimulatorDiagnostics diagnostics_;

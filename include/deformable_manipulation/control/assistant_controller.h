@@ -64,6 +64,10 @@ class AssistantController {
   //! Another solver of the safety filter's program.
   void setSolver(QpSolver solver) { filter_.setSolver(std::move(solver)); }
 
+  //! Goes on with other parameters of the same agents; formulation and priority stay as they were made.
+  //! @throw std::invalid_argument if they cannot be used; nothing changes then
+  void setParameters(const ControllerParameters& parameters);
+
   //! Back to the start: forgets all states and takes the first reference again.
   void reset();
 

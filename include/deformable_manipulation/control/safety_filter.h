@@ -56,6 +56,9 @@ class SafetyFilter {
   SafetyFilter(const SafetyFilter&) = delete;
   SafetyFilter& operator=(const SafetyFilter&) = delete;
 
+  //! Other weights, as many. @throw std::invalid_argument if one is not positive and finite
+  void setWeights(const Eigen::VectorXd& weights);
+
   //! Another solver than DualActiveSet.
   void setSolver(QpSolver solver) { solver_ = std::move(solver); }
 

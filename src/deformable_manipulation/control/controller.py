@@ -30,6 +30,7 @@ class AssistantController:
 
     def __init__(self, scenario, agent, safety=True):
         self._name = agent
+        self._safety = safety
         self._native = _control.AssistantController(native_parameters(scenario, agent, safety))
         self._last = None
 
@@ -45,6 +46,17 @@ class AssistantController:
     def reset(self):
         """Back to the start: forget all states and take the scenario's reference again."""
         self._native.reset()
+
+    def set_parameters(self, scenario):
+        """Go on with the gains, limits and margins of another scenario of the same agents.
+
+        What was observed and the reference stay, and so do ``formulation``, ``priority`` and
+        ``solver``.
+
+        Raises:
+            ValueError: they cannot be used; nothing changes then.
+        """
+        self._native.set_parameters(native_parameters(scenario, self._name, self._safety))
 
     def take_reference(self, observation):
         """Follow the leader at the present relative position from now on.

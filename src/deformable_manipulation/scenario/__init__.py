@@ -3,13 +3,22 @@
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
 from deformable_manipulation.scenario.files import package_share_directory
 from deformable_manipulation.scenario.limits import PairLimits, leader_workspace, pair_limits
-from deformable_manipulation.scenario.loader import load_scenario, scenario_from_mapping
-from deformable_manipulation.scenario.mapping import scenario_to_mapping, scenario_to_yaml
+from deformable_manipulation.scenario.loader import (
+    load_scenario,
+    scenario_from_mapping,
+    with_controller,
+)
+from deformable_manipulation.scenario.mapping import (
+    controller_to_mapping,
+    scenario_to_mapping,
+    scenario_to_yaml,
+)
 
 __all__ = [
     "PairLimits",
     "Problem",
     "ScenarioError",
+    "controller_to_mapping",
     "leader_workspace",
     "load_scenario",
     "package_share_directory",
@@ -17,4 +26,5 @@ __all__ = [
     "scenario_from_mapping",
     "scenario_to_mapping",
     "scenario_to_yaml",
+    "with_controller",
 ]

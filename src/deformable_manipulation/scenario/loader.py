@@ -82,6 +82,27 @@ def scenario_from_mapping(
     return _read_scenario(root, default_name, "")
 
 
+def with_controller(scenario: Scenario, section: Mapping[str, Any]) -> Scenario:
+    """A scenario with another section ``controller``, checked as the whole would be.
+
+    :param section: as :func:`~deformable_manipulation.scenario.mapping.controller_to_mapping` gives
+        it: with every key that depends on the object.
+
+    Raises ScenarioError with all problems found.
+    """
+    parts = {field.name: getattr(scenario, field.name) for field in dataclasses.fields(scenario)}
+    report = Report()
+    node = Node(section, ("controller",), report, Path("."))
+    try:
+        parts["controller"] = controller.CONTROLLER(node)
+    except Unreadable:
+        del parts["controller"]
+    _check_together(report, parts)
+    if report.problems:
+        raise ScenarioError(report.problems)
+    return Scenario(**parts)
+
+
 def _read_scenario(root: Node, default_name: str, source: str) -> Scenario:
     parts: Dict[str, Any] = {}
     try:
