@@ -1,5 +1,6 @@
 #include "scenario_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "deformable_manipulation/pbd/errors.h"
@@ -24,6 +25,10 @@ void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
 }
 
 }  // namespace
+
+int SimulatorScenario::leader() const {
+  return static_cast<int>(std::find(is_assistant.begin(), is_assistant.end(), false) - is_assistant.begin());
+}
 
 std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size) {
   std::vector<pbd::Perturbation> perturbations;

@@ -25,6 +25,9 @@ struct SimulatorScenario {
   pbd::Clock clock;
   double duration = 0.0;         // s
   double command_timeout = 0.0;  // s
+
+  //! Index of the leader among the agents.
+  int leader() const;
 };
 
 //! Per assistant and axis a copy on one side, or one on each. @param size [m] of the displacement along each axis

@@ -31,7 +31,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
       object_services_(node_, simulation_),
       live_perturbation_(scenario_, simulation_),
       control_(node_),
-      visualization_(node_, shapeOf(scenario.object), options.tf_prefix),
+      visualization_(node_, shapeOf(scenario.object), scenario.leader(), options.tf_prefix),
       diagnostics_(node_, simulation_, links_, control_, !shapeOf(scenario.object).triangles.empty(),
                    options.lockstep) {
   if (!simulation_.settled()) {
