@@ -92,7 +92,7 @@ class LiveParametersTest(unittest.TestCase):
 
         def has_new_copies(state):
             sizes = np.abs(state.displacements.reshape(-1, 3)[1:])
-            return np.all(state.copy_ready) and sizes.max(axis=0)[2] <= 0.04 + 1e-9
+            return all(state.copy_ready) and sizes.max(axis=0)[2] <= 0.04 + 1e-9
 
         self.states.wait_for(has_new_copies, "ready copies of the new size", len(self.states))
         resets = self.states[-1].reset_count

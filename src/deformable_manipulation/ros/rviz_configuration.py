@@ -159,7 +159,7 @@ def _perspective(low, high, flat):
         width = max(high[1] - low[1], _ASPECT * (high[2] - low[2]))
         distance, pitch, yaw = 1.23 * width, 0.3, 6.0
     else:
-        distance, pitch, yaw = 1.2 * math.hypot(*(high - low)), 0.35, 5.6
+        distance, pitch, yaw = 1.05 * math.hypot(*(high - low)), 0.35, 5.6
     return _orbit("Perspective", 0.5 * (low + high), distance, pitch, yaw, _PERSPECTIVE)
 
 
