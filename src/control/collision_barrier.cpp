@@ -38,7 +38,7 @@ void CollisionBarrier::addRows(const Features& features, const Situation& situat
   for (int m = 0; m < features.size(); ++m) {
     const Vector3& g = features.gradient(m, agent_);
     const double h = value(predictedDistance(features, m, situation)) - margin;
-    const double carried = features.normal[m].dot(leader_velocity - features.obstacle_velocity[m]);
+    const double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m));
     const double own_share = share(features, m);
     const double loose = looseness(features.distance[m] - features.distance[0], parameters_.band);
     const double unreachable = -max_velocity_ * g.lpNorm<1>();  // a bound that every velocity satisfies
@@ -57,10 +57,14 @@ Vector3 CollisionBarrier::leaderVelocity(const Situation& situation) const {
   return formulation_.leader_velocity ? situation.leaderVelocity() : Vector3::Zero();
 }
 
+Vector3 CollisionBarrier::obstacleVelocity(const Features& features, int feature) const {
+  return formulation_.obstacle_velocity ? features.obstacle_velocity[feature] : Vector3::Zero();
+}
+
 //! Distance [m] when the command starts to act, to first order.
 double CollisionBarrier::predictedDistance(const Features& features, int feature, const Situation& situation) const {
   const Vector3 leader_velocity = leaderVelocity(situation);
-  double rate = features.normal[feature].dot(leader_velocity - features.obstacle_velocity[feature]);
+  double rate = features.normal[feature].dot(leader_velocity - obstacleVelocity(features, feature));
   for (const int assistant : assistants_) {
     rate += features.gradient(feature, assistant).dot(situation.velocities[assistant] - leader_velocity);
   }

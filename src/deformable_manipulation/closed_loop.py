@@ -6,6 +6,7 @@ from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.leader import LeaderController
+from deformable_manipulation.obstacle_motion import MovingObstacles
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation import make_simulation
@@ -18,7 +19,8 @@ class ClosedLoop:
     """Runs a scenario in lock-step: the same order and delay as the nodes (docs/interfaces.md).
 
     In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
-    commands of cycle k - 1, and then takes the new ones.
+    commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
+    those whose poses come from a topic or from tf stand where the scenario puts them.
 
     Raises _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
     """
@@ -28,6 +30,7 @@ class ClosedLoop:
         # Without barriers nobody asks for gradients.
         self._simulation = make_simulation(scenario, copies=safety)
         self._distance = make_minimum_distance(scenario)
+        self._obstacles = MovingObstacles(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
         self._controllers = {
@@ -39,6 +42,7 @@ class ClosedLoop:
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
+        self._obstacles.move(self._distance, self._simulation.time)
         return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
 
     def run(self, recorder=None, progress=None) -> None:
@@ -88,6 +92,7 @@ class ClosedLoop:
             positions=observation.positions,
             velocities=velocities,
             points=points,
+            obstacles=self._obstacles.poses(),
             decisions={
                 self._scenario.agents[index].name: decision for index, decision in decisions.items()
             },
@@ -101,6 +106,7 @@ class ClosedLoop:
     def _observe(self) -> Observation:
         simulation = self._simulation
         points = simulation.points(out=self._points)
+        self._obstacles.move(self._distance, simulation.time)
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,

@@ -6,6 +6,7 @@ from typing import Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
 
 from deformable_manipulation.distance.planes import PlaneFrame
 from deformable_manipulation.recording.frames import Frames
@@ -15,6 +16,7 @@ from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
 # Okabe and Ito, in an order in which neighbours differ in lightness, too.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 GROUND, GROUND_EDGE = "#D9D9D9", "#808080"
+_PALENESS = 0.35  # of moving obstacles, beside the object's colour
 _MARGIN = 0.25  # m around the object's and the agents' ways
 
 
@@ -46,14 +48,22 @@ class SnapshotPlot:
         self._plane = list(plane or widest_plane(frames))
 
     def draw(self, times: Sequence[float]) -> None:
-        """Obstacles, ways, and the object at some times [s], each in a colour of its own."""
+        """Obstacles, ways, and the object at some times [s], each in a colour of its own.
+
+        Obstacles that move are drawn at each of these times, in a pale tone of its colour.
+        """
         for obstacle in self._frames.scenario.obstacles:
-            self._draw_obstacle(obstacle)
+            if obstacle.motion is None:
+                self._draw_obstacle(obstacle, GROUND)
         for index in range(self._frames.agents.shape[1]):
             way = self._frames.agents[:, index, self._plane]
             self._axes.plot(*way.T, linestyle=":", linewidth=0.6, color="#606060", zorder=2)
         for number, time in enumerate(times):
-            self._draw_frame(self._frames.at(time), COLOURS[number % len(COLOURS)])
+            frame, colour = self._frames.at(time), COLOURS[number % len(COLOURS)]
+            for obstacle in self._frames.obstacles_at(frame):
+                if obstacle.motion is not None:
+                    self._draw_obstacle(obstacle, _pale(colour))
+            self._draw_frame(frame, colour)
         across, up = (AXES[axis] for axis in self._plane)
         self._axes.set_xlabel(f"{across} [m]")
         self._axes.set_ylabel(f"{up} [m]")
@@ -105,19 +115,19 @@ class SnapshotPlot:
                 )
 
     @singledispatchmethod
-    def _draw_obstacle(self, obstacle) -> None:
+    def _draw_obstacle(self, obstacle, colour) -> None:
         raise TypeError(f"no drawing for obstacles of {type(obstacle).__name__}")
 
     @_draw_obstacle.register
-    def _(self, obstacle: PolygonObstacle) -> None:
+    def _(self, obstacle: PolygonObstacle, colour) -> None:
         frame = PlaneFrame(obstacle.plane, obstacle.rotation)
         ring = frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
-        self._axes.fill(*ring[:, self._plane].T, facecolor=GROUND, edgecolor=GROUND_EDGE)
+        self._axes.fill(*ring[:, self._plane].T, facecolor=colour, edgecolor=GROUND_EDGE)
 
     @_draw_obstacle.register
-    def _(self, obstacle: MeshObstacle) -> None:
+    def _(self, obstacle: MeshObstacle, colour) -> None:
         corners = placed_mesh(obstacle)[..., self._plane]
-        self._axes.add_collection(PolyCollection(corners, facecolor=GROUND, edgecolor="none"))
+        self._axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor="none"))
 
     def _limits(self, times: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
         """Lower and upper limits (2,) [m] of the view."""
@@ -127,6 +137,11 @@ class SnapshotPlot:
         low, high = shown.min(axis=0) - _MARGIN, shown.max(axis=0) + _MARGIN
         lowest = self._frames.points[:, :, self._plane[1]].min()
         return np.array([low[0], min(low[1], lowest - 2.0 * _MARGIN)]), high
+
+
+def _pale(colour: str) -> Tuple[float, ...]:
+    """A colour for the ground behind lines of this one."""
+    return tuple(1.0 - _PALENESS * (1.0 - part) for part in to_rgb(colour))
 
 
 def boundary_edges(faces: np.ndarray) -> np.ndarray:

@@ -121,6 +121,7 @@ void bindFormulation(py::module_& module) {
       .def(py::init<>(), "All of it.")
       .def_static("paper", &Formulation::paper, "The paper's equations 2 to 13.")
       .def_readwrite("leader_velocity", &Formulation::leader_velocity, "In the nominal law and the collision rows.")
+      .def_readwrite("obstacle_velocity", &Formulation::obstacle_velocity, "In the collision rows.")
       .def_readwrite("prediction", &Formulation::prediction, "Of the state over the delay of a cycle.")
       .def_readwrite("every_feature", &Formulation::every_feature, "A row for each, not one for the minimum.")
       .def_readwrite("anticipation", &Formulation::anticipation, "A second, softer and slower row for each feature.")

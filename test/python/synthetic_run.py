@@ -6,6 +6,7 @@ import numpy as np
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording import CycleRecord, CycleTimings
 from deformable_manipulation.scenario import scenario_from_mapping
 
@@ -82,6 +83,7 @@ def make_record(scenario, cycle, **changes):
         positions=np.arange(3.0 * agents).reshape(agents, 3) + cycle,
         velocities=-np.arange(3.0 * agents).reshape(agents, 3) - cycle,
         points=np.arange(3.0 * POINTS).reshape(POINTS, 3) + 0.1 * cycle,
+        obstacles=np.zeros((len(moving_obstacles(scenario)), 7)) + cycle,
         decisions=decisions,
         timings=CycleTimings(1e-3 * (cycle + 1), 2e-3, 3e-3),
     )

@@ -7,79 +7,30 @@ The test publishes the pose.
 import numpy as np
 import rospy
 from faulty_run import FaultTest
-from geometry_msgs.msg import Point, PoseStamped, Quaternion
 from observed_run import run_tests
+from walking_pose import (
+    WalkingPose,
+    in_another_frame,
+    intact,
+    late,
+    lost,
+    not_finite,
+    without_orientation,
+)
 
-from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import agent_positions
 
-PERIOD = 0.01  # s
 SPEED = 0.05  # m/s
 CLOSE = 0.005  # m: a few cycles of that speed
-NAN = float("nan")
-
-
-class WalkingLeader:
-    """Publishes poses along x as time goes by.
-
-    Attributes:
-        spoil: function of a PoseStamped, gives the one that is published, or None.
-    """
-
-    def __init__(self, start):
-        self.spoil = intact
-        self._start = np.array(start)
-        self._began = rospy.Time.now()
-        self._publisher = rospy.Publisher("leader/pose", PoseStamped, queue_size=1)
-        node.every(PERIOD, self._publish)
-
-    def position(self, stamp):
-        travelled = SPEED * (stamp - self._began).to_sec()
-        return self._start + [travelled, 0.0, 0.0]
-
-    def _publish(self):
-        pose = PoseStamped()
-        pose.header.stamp = rospy.Time.now()
-        pose.header.frame_id = "map"
-        pose.pose.position = Point(*self.position(pose.header.stamp))
-        pose.pose.orientation = Quaternion(0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
-        pose = self.spoil(pose)
-        if pose is not None:
-            self._publisher.publish(pose)
-
-
-def intact(pose):
-    return pose
-
-
-def lost(_pose):
-    return None
-
-
-def late(pose):
-    pose.header.stamp -= rospy.Duration(1.0)
-    return pose
-
-
-def not_finite(pose):
-    pose.pose.position.y = NAN
-    return pose
-
-
-def in_another_frame(pose):
-    pose.header.frame_id = "tool0"
-    return pose
-
-
-def without_orientation(pose):
-    pose.pose.orientation = Quaternion()
-    return pose
+ALONG_Y = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
 
 
 class FaultPoseTest(FaultTest):
     @classmethod
     def setUpClass(cls):
-        cls.leader = WalkingLeader([0.0, 0.0, 1.35])
+        cls.leader = WalkingPose(
+            "leader/pose", [0.0, 0.0, 1.35], [SPEED, 0.0, 0.0], ALONG_Y
+        )
         super().setUpClass()
 
     def tearDown(self):

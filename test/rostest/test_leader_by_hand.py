@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 import rospy
 from geometry_msgs.msg import Twist
+from marker_hand import MarkerHand
 from observed_run import (
     Messages,
     call,
@@ -19,11 +20,7 @@ from observed_run import (
 )
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import SetBool, Trigger
-from visualization_msgs.msg import (
-    InteractiveMarkerFeedback,
-    InteractiveMarkerInit,
-    InteractiveMarkerUpdate,
-)
+from visualization_msgs.msg import InteractiveMarkerInit, InteractiveMarkerUpdate
 
 from deformable_manipulation.ros.conversions import agent_positions
 from deformable_manipulation.scenario import leader_workspace
@@ -35,34 +32,18 @@ NEAR = 1e-6  # m
 CYCLES = 50  # at rest in a row
 
 
-class Hand:
-    """Repeats something with every state, as RViz does while a marker is held."""
-
-    def __init__(self):
-        self.act = None
-
-    def on_state(self, _state):
-        act = self.act
-        if act is not None:
-            act()
-
-
 class LeaderByHandTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.scenario = read_scenario()
         cls.row = cls.scenario.leader_index
-        cls.feedback = rospy.Publisher(
-            "interactive_markers/feedback", InteractiveMarkerFeedback, queue_size=100
-        )
+        cls.hand = MarkerHand("leader")
         cls.teleop = rospy.Publisher("leader/teleop", Twist, queue_size=100)
-        poll(cls.feedback.get_num_connections, "the marker's server")
         poll(cls.teleop.get_num_connections, "the leader")
         cls.log = Messages("/rosout", Log)
         cls.markers = Messages("interactive_markers/update_full", InteractiveMarkerInit)
         cls.updates = Messages("interactive_markers/update", InteractiveMarkerUpdate)
         cls.decisions = observe_controllers(cls.scenario)[AGENT]
-        cls.hand = Hand()
         cls.states = observe_states(cls.hand.on_state)
 
     def setUp(self):
@@ -84,19 +65,6 @@ class LeaderByHandTest(unittest.TestCase):
 
     def velocity(self, state):
         return velocities_of(state, self.scenario)[self.row]
-
-    def send(self, kind, position=(0.0, 0.0, 0.0), frame="map", entry=0):
-        message = InteractiveMarkerFeedback(event_type=kind, marker_name="leader", client_id="hand")
-        message.header.frame_id = frame
-        place = message.pose.position
-        place.x, place.y, place.z = position
-        message.pose.orientation.w = 1.0
-        message.menu_entry_id = entry
-        self.feedback.publish(message)
-
-    def drag(self, position, frame="map"):
-        """Hold the marker at a place from now on."""
-        self.hand.act = lambda: self.send(InteractiveMarkerFeedback.POSE_UPDATE, position, frame)
 
     def steer(self, velocity):
         twist = Twist()
@@ -133,10 +101,9 @@ class LeaderByHandTest(unittest.TestCase):
     def test_it_goes_where_the_marker_is_dragged_and_the_marker_stays_with_it(self):
         first = len(self.states)
         target = self.start + (0.1, -0.05, 0.02)
-        self.drag(target)
+        self.hand.drag(target)
         self.wait_for_place(target)
-        self.hand.act = None
-        self.send(InteractiveMarkerFeedback.MOUSE_UP, target)
+        self.hand.release(target)
         self.assert_within_limits(self.states[first:])
         place = self.wait_for_rest()
         np.testing.assert_allclose(place, target, 0.0, NEAR)
@@ -156,23 +123,24 @@ class LeaderByHandTest(unittest.TestCase):
 
     def test_let_go_on_the_way_it_stops_and_the_marker_comes_back(self):
         far = self.start + (0.0, 0.4, 0.0)
-        for message in (InteractiveMarkerFeedback.MOUSE_UP, None):
-            with self.subTest(message=message):
-                self.drag(far)
+        for is_told in (True, False):
+            with self.subTest(is_told=is_told):
+                self.hand.drag(far)
                 self.states.wait_for(
                     lambda state: self.velocity(state)[1] > 0.05, "motion", len(self.states)
                 )
+                if is_told:
+                    self.hand.release(far)
                 self.hand.act = None
-                if message is not None:
-                    self.send(message, far)
                 place = self.wait_for_rest()
-                self.assertLess(place[1], far[1] - 0.01 if message is not None else np.inf)
+                if is_told:
+                    self.assertLess(place[1], far[1] - 0.01)
                 self.wait_for_marker(place)
 
     def test_it_stays_in_the_workspace(self):
         lower, upper = leader_workspace(self.scenario)
         first = len(self.states)
-        self.drag((100.0, lower[1] - 0.01, self.start[2]))
+        self.hand.drag((100.0, lower[1] - 0.01, self.start[2]))
         wall = np.array((upper[0], lower[1], self.start[2]))
         self.wait_for_place(wall)
         np.testing.assert_allclose(self.wait_for_rest(), wall, 0.0, NEAR)
@@ -188,7 +156,7 @@ class LeaderByHandTest(unittest.TestCase):
         ):
             with self.subTest(word=word):
                 log_start = len(self.log)
-                self.drag(position, frame)
+                self.hand.drag(position, frame)
                 self.log.wait_for(lambda line, w=word: w in line.msg, word, log_start)
                 np.testing.assert_array_equal(self.wait_for_rest(), self.start)
                 self.wait_for_marker(self.start)
@@ -219,7 +187,7 @@ class LeaderByHandTest(unittest.TestCase):
                 for each in entries.menu_entries
                 if (each.parent_id, each.title) == (parent, title)
             ]
-        self.send(InteractiveMarkerFeedback.MENU_SELECT, entry=parent)
+        self.hand.select(parent)
 
     def test_the_menu_starts_and_stops_an_assistant(self):
         for title, enabled in (("Stop", False), ("Start", True)):
@@ -231,7 +199,7 @@ class LeaderByHandTest(unittest.TestCase):
     def test_the_menu_takes_the_present_place_as_the_one_to_keep(self):
         self.assertTrue(call(AGENT + "/enable", SetBool, False).success)
         self.addCleanup(call, AGENT + "/enable", SetBool, True)
-        self.drag(self.start + (0.0, -0.1, 0.0))
+        self.hand.drag(self.start + (0.0, -0.1, 0.0))
         self.wait_for_place(self.start + (0.0, -0.1, 0.0))
         self.decisions.wait_for(
             lambda decision: abs(decision.error_norm - 0.1) < 1e-3, "an error", len(self.decisions)

@@ -55,6 +55,7 @@ class CollisionBarrier {
 
  private:
   Vector3 leaderVelocity(const Situation& situation) const;
+  Vector3 obstacleVelocity(const Features& features, int feature) const;
   double predictedDistance(const Features& features, int feature, const Situation& situation) const;
   double share(const Features& features, int feature) const;
 

@@ -11,6 +11,7 @@ from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
 from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
+from deformable_manipulation.obstacle_motion import MovingObstacles, obstacle_places
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
@@ -20,6 +21,7 @@ from deformable_manipulation.simulation import make_simulation
 _ATTEMPTS = 20
 _BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in
 _START_SHIFT = 0.05  # m, of an assistant's start
+_PLACES = 50  # of a moving obstacle on its way, which the leader's path keeps clear of
 _SPARE = 0.05  # m, beyond the offset, that the object is clear at the start
 
 
@@ -140,8 +142,14 @@ def _factor(largest: float, random) -> float:
 
 
 def _clearance(scenario: Scenario):
-    """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size."""
-    distance = MinimumDistance(scenario.obstacles, scenario.object.margin)
+    """Distances (N,) [m] of points (N, 3) from the scenario's obstacles, less the object's size.
+
+    Those that move are everywhere on their way.
+    """
+    everywhere = [
+        place for obstacle in scenario.obstacles for place in obstacle_places(obstacle, _PLACES)
+    ]
+    distance = MinimumDistance(everywhere, scenario.object.margin)
 
     def clearance(points):
         # Each point as a copy of a polyline that is nowhere else.
@@ -152,5 +160,6 @@ def _clearance(scenario: Scenario):
 
 def _starts_clear(scenario: Scenario) -> bool:
     distance = make_minimum_distance(scenario)
+    MovingObstacles(scenario).move(distance, 0.0)
     lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
     return lowest >= scenario.controller.collision.offset + _SPARE

@@ -14,7 +14,13 @@ from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
-from deformable_manipulation.scenario.spec import PolygonObstacle, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import (
+    PathMotion,
+    PolygonObstacle,
+    RodSpec,
+    Scenario,
+    TopicMotion,
+)
 
 _EXAMPLES = """\
 examples:
@@ -82,8 +88,21 @@ def describe_object(spec) -> str:
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
-        return "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
-    return "mesh {}, scale {}".format(spec.mesh, " x ".join("{:g}".format(s) for s in spec.scale))
+        shape = "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+    else:
+        scale = " x ".join("{:g}".format(s) for s in spec.scale)
+        shape = "mesh {}, scale {}".format(spec.mesh, scale)
+    return shape if spec.motion is None else "{}, {}".format(shape, describe_motion(spec.motion))
+
+
+def describe_motion(motion) -> str:
+    """Where an obstacle's pose comes from, in a few words."""
+    if isinstance(motion, PathMotion):
+        waypoints = motion.waypoints
+        return "moves through {} waypoints, {:g} s".format(len(waypoints), waypoints[-1].time)
+    if isinstance(motion, TopicMotion):
+        return "pose from topic {}".format(motion.topic)
+    return "pose of tf frame {}".format(motion.frame)
 
 
 def summary(scenario: Scenario) -> Iterator[str]:

@@ -9,6 +9,7 @@ from typing import Optional, Sequence
 from deformable_manipulation.commands.arguments import add_scenario_arguments
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.interruption import exit_status, interruptible, interrupts_ignored
+from deformable_manipulation.obstacle_motion import names_without_path
 from deformable_manipulation.recording import RecordingError, RunRecorder
 from deformable_manipulation.recording.summary import describe
 from deformable_manipulation.scenario import ScenarioError, load_scenario
@@ -41,6 +42,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
+    _warn_of_standing(scenario)
     _warn_of_start(loop.distance(), scenario.controller.collision.offset)
     with interruptible():
         return _run(loop, recorder)
@@ -78,6 +80,16 @@ def _make_loop(scenario: Scenario, safety: bool):
     from deformable_manipulation.closed_loop import ClosedLoop
 
     return ClosedLoop(scenario, safety=safety)
+
+
+def _warn_of_standing(scenario: Scenario) -> None:
+    """Topics and tf need ROS."""
+    for name in names_without_path(scenario):
+        print(
+            f"run_scenario: WARNING: obstacle {name!r} stands at its own pose: its motion comes "
+            "from ROS; start the launch file instead, or give it waypoints",
+            file=sys.stderr,
+        )
 
 
 def _warn_of_start(distance: float, offset: float) -> None:

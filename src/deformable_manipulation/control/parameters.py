@@ -59,6 +59,7 @@ def _formulation(settings):
         return _control.Formulation.paper()
     formulation = _control.Formulation()
     formulation.leader_velocity = settings.feedforward
+    formulation.obstacle_velocity = settings.collision.obstacle_velocity
     formulation.every_feature = settings.collision.gradient == "features"
     return formulation
 

@@ -35,6 +35,24 @@ class Distances:
     identity: Optional[np.ndarray] = None
     names: Tuple[str, ...] = ()  # of the obstacles
 
+    @classmethod
+    def unknown(cls, copies: int, names: Tuple[str, ...]) -> "Distances":
+        """No features, and minima that are not numbers, where distances cannot be computed."""
+        vectors = np.zeros((0, 3))
+        return cls(
+            minimum=np.full(copies, np.nan),
+            offsets=np.zeros(copies + 1, dtype=int),
+            distance=np.zeros(0),
+            obstacle=np.zeros(0, dtype=int),
+            object_point=vectors,
+            obstacle_point=vectors,
+            normal=vectors,
+            vertices=np.zeros((0, 3), dtype=int),
+            weights=vectors,
+            obstacle_velocity=vectors,
+            names=names,
+        )
+
     def of_copy(self, copy: int) -> slice:
         """Rows of the features of one copy."""
         return slice(int(self.offsets[copy]), int(self.offsets[copy + 1]))

@@ -60,6 +60,7 @@ class MinimumDistance:
                     problems += named(spec, str(error).splitlines())
         if problems:
             raise ValueError("\n".join(problems))
+        self._obstacles = native
         self._native = _distance.MinimumDistance(native, margin, band, features)
         self._triangles = None if triangles is None else np.ascontiguousarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
@@ -69,6 +70,17 @@ class MinimumDistance:
             for spec, obstacle in zip(obstacles, native)
             for warning in getattr(obstacle, "warnings", ())
         )
+
+    def set_pose(self, index, pose):
+        """Move an obstacle.
+
+        Args:
+            index: of the obstacle.
+            pose: obstacle_motion.MovingPose; its velocity is told in the features.
+
+        Raises ValueError where a number is not finite or the quaternion has not the length 1.
+        """
+        self._obstacles[index].set_pose(*pose)
 
     def compute(self, points):
         """Distances of C copies of the object.

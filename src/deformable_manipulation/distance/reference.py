@@ -1,11 +1,14 @@
 """Minimum distances by Trimesh, FCL and Shapely: slow, and independent of the C++ core."""
 
+import dataclasses
+
 import numpy as np
 
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.distance.minimum_distance import (
     checked_points,
     named,
+    pose_problems,
     setting_problems,
 )
 from deformable_manipulation.distance.reference_shapes import reference_shape
@@ -44,10 +47,24 @@ class ReferenceMinimumDistance:
                     problems += named(spec, str(error).splitlines())
         if problems:
             raise ValueError("\n".join(problems))
+        self._obstacles = list(obstacles)
+        self._velocities = [(np.zeros(3), np.zeros(3))] * len(self._obstacles)
         self._margin, self._band, self._selection = margin, band, features
         self._triangles = None if triangles is None else np.asarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
         self.warnings = ()
+
+    def set_pose(self, index, pose):
+        """Move an obstacle; see MinimumDistance. Its shape is made anew."""
+        spec = dataclasses.replace(
+            self._obstacles[index], translation=pose.translation, rotation=pose.rotation
+        )
+        problems = pose_problems(spec)
+        if problems:
+            raise ValueError("\n".join(named(spec, problems)))
+        self._obstacles[index] = spec
+        self._shapes[index] = reference_shape(spec)
+        self._velocities[index] = np.array(pose.linear), np.array(pose.angular)
 
     def compute(self, points):
         """Distances (features.Distances) of points (C, P, 3) [m]. Raises ValueError."""
@@ -118,10 +135,16 @@ class ReferenceMinimumDistance:
             normal=stacked([row.normal for row in rows]),
             vertices=vertices,
             weights=stacked([row.weights for row in rows]),
-            obstacle_velocity=np.zeros((len(rows), 3)),
+            obstacle_velocity=stacked([self._velocity(row) for row in rows]),
             identity=identity,
             names=self.names,
         )
+
+    def _velocity(self, row):
+        """Of the obstacle at its point [m/s]."""
+        linear, angular = self._velocities[row.obstacle]
+        arm = row.obstacle_point - np.asarray(self._obstacles[row.obstacle].translation)
+        return linear + np.cross(angular, arm)
 
 
 class _Row:

@@ -1,13 +1,16 @@
 """Frames of a run from a bag, without ROS."""
 
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 import yaml
 from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from deformable_manipulation.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording.bag_index import DAMAGED, open_bag
+from deformable_manipulation.recording.bag_track import DISTANCES
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunDataError
 from deformable_manipulation.scenario import ScenarioError, scenario_from_mapping
@@ -47,21 +50,11 @@ def _read_scenario(path: Path, reader: Reader) -> Scenario:
 
 
 def _read_states(path: Path, reader: Reader, scenario: Scenario) -> Frames:
-    connections = _connections(reader, OBJECT_STATE)
-    if not connections:
+    if not _connections(reader, OBJECT_STATE):
         raise RunDataError(f"{path} holds no states of the object; record the topic state")
-    types = get_typestore(Stores.ROS1_NOETIC)
-    types.register(get_types_from_msg(connections[0].msgdef.data, OBJECT_STATE))
     every = max(1, round(scenario.controller.rate / scenario.simulation.record_rate))
-    frames, last = {}, (-1, -1)
-    for _, _, data in reader.messages(connections[:1]):
-        state = types.deserialize_ros1(data, OBJECT_STATE)
-        run = (state.reset_count, state.cycle)
-        if run[0] != last[0] or run[1] < last[1]:
-            frames = {}  # a reset or a restart: only the last run counts
-        last = run
-        if state.cycle % every == 0:
-            frames[state.cycle] = _frame(state, scenario)
+    states = _messages(reader, OBJECT_STATE)
+    frames = _of_last_run(states, every, lambda state: _frame(state, scenario))
     if not frames:
         raise RunDataError(f"{path} holds no state of the object")
     cycles = sorted(frames)
@@ -73,7 +66,41 @@ def _read_states(path: Path, reader: Reader, scenario: Scenario) -> Frames:
         np.stack(points),
         np.stack(agents),
         None if faces is None else np.array(faces),
+        _read_obstacles(reader, scenario, cycles, every),
     )
+
+
+def _of_last_run(messages, every: int, read: Callable) -> dict:
+    """What is read of every so many-th cycle of the last run, by cycle."""
+    found, last = {}, (-1, -1)
+    for message in messages:
+        run = (message.reset_count, message.cycle)
+        if run[0] != last[0] or run[1] < last[1]:
+            found = {}  # a reset or a restart: only the last run counts
+        last = run
+        if message.cycle % every == 0:
+            found[message.cycle] = read(message)
+    return found
+
+
+def _read_obstacles(reader: Reader, scenario: Scenario, cycles, every: int):
+    """Poses (F, K, 7) of the moving obstacles; None where none moves or nothing tells.
+
+    A cycle without distances has the poses of the one before.
+    """
+    moving = len(moving_obstacles(scenario))
+    if not moving:
+        return None
+    poses = _of_last_run(
+        _messages(reader, DISTANCES),
+        every,
+        lambda distances: np.asarray(distances.obstacle_poses).reshape(moving, 7),
+    )
+    known = sorted(poses)
+    if not known:
+        return None
+    places = np.maximum(np.searchsorted(known, cycles, side="right") - 1, 0)
+    return np.stack([poses[known[place]] for place in places])
 
 
 def _frame(state, scenario: Scenario):
@@ -82,6 +109,16 @@ def _frame(state, scenario: Scenario):
     positions = np.asarray(state.agent_positions).reshape(-1, 3)
     order = [state.agents.index(agent.name) for agent in scenario.agents]
     return points.astype(np.float32), positions[order].astype(np.float32)
+
+
+def _messages(reader: Reader, msgtype: str):
+    """The messages of the first topic of a type."""
+    connections = _connections(reader, msgtype)[:1]
+    if connections:
+        types = get_typestore(Stores.ROS1_NOETIC)
+        types.register(get_types_from_msg(connections[0].msgdef.data, msgtype))
+        for _, _, data in reader.messages(connections):
+            yield types.deserialize_ros1(data, msgtype)
 
 
 def _connections(reader: Reader, msgtype: str):

@@ -8,6 +8,7 @@ from typing import Optional
 
 import numpy as np
 
+from deformable_manipulation.obstacle_motion import placed_obstacles
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import RunData, RunDataError
 from deformable_manipulation.scenario import ScenarioError, load_scenario
@@ -23,10 +24,17 @@ class Frames:
     points: np.ndarray  # (F, P, 3) m
     agents: np.ndarray  # (F, A, 3) m, held points, in the scenario's order
     faces: Optional[np.ndarray] = None  # (T, 3) triangles of a fabric; None: a rod's polyline
+    obstacles: Optional[np.ndarray] = None  # (F, K, 7) poses of the moving ones; None: not recorded
 
     def at(self, time: float) -> int:
         """Index of the frame nearest to a time [s]."""
         return int(np.argmin(np.abs(self.times - time)))
+
+    def obstacles_at(self, frame: int) -> tuple:
+        """The scenario's obstacles, where they were in a frame."""
+        if self.obstacles is None:
+            return self.scenario.obstacles
+        return placed_obstacles(self.scenario, self.obstacles[frame])
 
 
 def read_frames(run: RunData) -> Frames:
@@ -58,4 +66,6 @@ def _read_folder(folder: Path) -> Frames:
         scenario = load_scenario(folder / run_files.SCENARIO)
     except ScenarioError as error:
         raise RunDataError(str(error)) from error
-    return Frames(scenario, times, points, agents, arrays.get("faces"))
+    return Frames(
+        scenario, times, points, agents, arrays.get("faces"), arrays.get("obstacles")
+    )

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from deformable_manipulation.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.summary import summarise, write_summary
 from deformable_manipulation.recording.timeseries import CycleRecord, TimeSeries
@@ -41,7 +42,7 @@ class RunRecorder:
         names = tuple(agent.name for agent in scenario.agents)
         assistants = tuple(names[index] for index in scenario.assistants)
         self._series = TimeSeries(names, assistants, rows=scenario.cycles + 1)
-        self._frames = []  # (time, points, agents); one append each, never half a frame
+        self._frames = []  # (time, points, agents, obstacles); one append each, never half a frame
         self._last_frame = -1
         self._frames_per_cycle = scenario.simulation.record_rate, scenario.controller.rate
         run_files.prepare_folder(self.directory, overwrite)
@@ -59,6 +60,7 @@ class RunRecorder:
                     record.time,
                     np.array(record.points, dtype=np.float32),
                     np.array(record.positions, dtype=np.float32),
+                    np.array(record.obstacles, dtype=np.float32),
                 )
             )
 
@@ -98,7 +100,7 @@ class RunRecorder:
         file.write(scenario_to_yaml(self._scenario))
 
     def _write_states(self, file) -> None:
-        times, points, agents = zip(*self._frames) if self._frames else ((), (), ())
+        times, points, agents, obstacles = zip(*self._frames) if self._frames else ((),) * 4
         agent_names = [agent.name for agent in self._scenario.agents]
         arrays = {
             "times": np.array(times, dtype=np.float32),
@@ -106,6 +108,10 @@ class RunRecorder:
             "agents": np.array(agents, np.float32).reshape(len(times), len(agent_names), 3),
             "agent_names": np.array(agent_names),
         }
+        moving = [self._scenario.obstacles[i].name for i in moving_obstacles(self._scenario)]
+        if moving:
+            arrays["obstacles"] = np.array(obstacles, np.float32).reshape(len(times), -1, 7)
+            arrays["obstacle_names"] = np.array(moving)
         if isinstance(self._scenario.object, FabricSpec):
             arrays["faces"] = np.array(self._scenario.object.triangles, dtype=np.int32)
         np.savez_compressed(file, **arrays)

@@ -57,6 +57,7 @@ class CycleRecord:
     positions: np.ndarray  # (A, 3) m, held points
     velocities: np.ndarray  # (A, 3) m/s, the velocities that led to this state
     points: np.ndarray  # (P, 3) m
+    obstacles: np.ndarray  # (K, 7) m, quaternion: poses of the K moving obstacles
     decisions: Mapping[str, Decision]
     timings: CycleTimings
 

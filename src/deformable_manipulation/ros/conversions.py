@@ -45,8 +45,11 @@ def to_observation(state, distances, scenario) -> Observation:
 
     Time counts from the start of the run: cycles of the scenario's rate.
 
-    Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
+    Raises MessageError: another frame, an array's size does not fit, an agent is missing, or the
+    distances are unusable by what they say themselves.
     """
+    if distances.fault:
+        raise MessageError(distances.fault)
     for name, message in (("state", state), ("distances", distances)):
         if message.header.frame_id != scenario.frame:
             raise MessageError(
@@ -99,14 +102,22 @@ def to_distances(message) -> Distances:
         normal=_reshaped(message.normals, "normals", vectors),
         vertices=_reshaped(message.feature_vertices, "feature_vertices", vectors).astype(np.int64),
         weights=_reshaped(message.feature_weights, "feature_weights", vectors),
-        obstacle_velocity=_reshaped(message.obstacle_velocities, "obstacle_velocities", vectors),
+        obstacle_velocity=_obstacle_velocities(message.obstacle_velocities, vectors),
         identity=_reshaped(message.feature_identities, "feature_identities", (features,)),
         names=tuple(message.obstacles),
     )
 
 
-def fill_distances(message, state, distances, computation_time):
-    """Write the distances of a state into a ``Distances`` message."""
+def _obstacle_velocities(values, shape):
+    """Zeros where none are told. Raises MessageError."""
+    return _reshaped(values, "obstacle_velocities", shape) if len(values) else np.zeros(shape)
+
+
+def fill_distances(message, state, distances, computation_time, moving=(), poses=(), fault=""):
+    """Write the distances of a state into a ``Distances`` message.
+
+    ``moving``: names of the K moving obstacles, ``poses``: where they are, (K, 7).
+    """
     message.header = state.header
     message.cycle = state.cycle
     message.reset_count = state.reset_count
@@ -118,10 +129,13 @@ def fill_distances(message, state, distances, computation_time):
     message.object_points = distances.object_point.ravel()
     message.obstacle_points = distances.obstacle_point.ravel()
     message.normals = distances.normal.ravel()
-    message.obstacle_velocities = distances.obstacle_velocity.ravel()
+    message.obstacle_velocities = distances.obstacle_velocity.ravel() if moving else np.zeros(0)
     message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
     message.feature_weights = distances.weights.ravel()
     message.feature_identities = _identities(distances)
+    message.moving_obstacles = list(moving)
+    message.obstacle_poses = np.ravel(poses)
+    message.fault = fault
     message.computation_time = computation_time
     return message
 

@@ -1,5 +1,6 @@
 """Obstacles and nearest features for RViz."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -30,14 +31,28 @@ _TO_LIGHT = np.array([0.35, -0.25, 0.9]) / np.linalg.norm([0.35, -0.25, 0.9])
 _AMBIENT = 0.6  # the share of light that comes from everywhere
 
 
-def obstacle_markers(obstacles, frame, half_width=0.25):
+def obstacle_frame(obstacle, tf_prefix=""):
+    """The tf frame that a moving obstacle is drawn in."""
+    return f"{tf_prefix}obstacle_{obstacle.name}"
+
+
+def obstacle_markers(obstacles, frame, half_width=0.25, tf_prefix=""):
     """Meshes, and the piece of each planar obstacle within ``half_width`` [m] of its plane.
+
+    Those that move are drawn in a frame of their own (:func:`obstacle_frame`), which RViz follows
+    without another marker.
 
     Raises distance.mesh_files.MeshError: a mesh file cannot be read.
     """
     markers = []
     for index, obstacle in enumerate(obstacles):
         marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST)
+        if obstacle.motion is not None:
+            marker.header.frame_id = obstacle_frame(obstacle, tf_prefix)
+            marker.frame_locked = True
+            obstacle = dataclasses.replace(
+                obstacle, translation=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0)
+            )
         if isinstance(obstacle, MeshObstacle):
             _draw_mesh(marker, obstacle)
         else:

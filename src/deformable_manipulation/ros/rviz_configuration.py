@@ -6,13 +6,12 @@ import math
 import numpy as np
 import yaml
 
-from deformable_manipulation.scenario.spec import PolygonObstacle
-
 _WINDOW = (1280, 800)  # pixels
 _ASPECT = _WINDOW[0] / _WINDOW[1]
 _FAR = 40.0  # m, from which parallel lines stay parallel
 _CELL = 0.5  # m, of the grid
-_BEHIND = 0.251  # m, of the grid behind a planar scene: just behind the obstacles that are drawn
+_BEHIND = 0.3  # m, of the grid behind a flat scene: behind the obstacles as they are drawn
+_FLAT = 0.1  # of the scene's width
 _PERSPECTIVE = 0.785  # rad, field of view
 
 # As RViz saves it; without it the panels would not stay hidden.
@@ -39,7 +38,7 @@ def rviz_configuration(scenario):
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
     """
     low, high = _scene(scenario)
-    flat = _is_flat(scenario)
+    flat = high[0] - low[0] < _FLAT * (high[1] - low[1])  # all goes on in the plane YZ
     perspective = _perspective(low, high, flat)
     return {
         "Panels": [
@@ -117,20 +116,17 @@ _TOOLS = [
 ]
 
 
-def _is_flat(scenario):
-    """Whether everything goes on in the plane YZ."""
-    obstacles = scenario.obstacles
-    return bool(obstacles) and all(
-        isinstance(each, PolygonObstacle) and each.plane == "yz" for each in obstacles
-    )
-
-
 def _scene(scenario):
-    """Corners (3,) [m] of the box of all places where agents are to be, down to the ground."""
+    """Corners (3,) [m] of the box of all places where agents are to be, and moving obstacles, down
+    to the ground."""
     starts = np.array([agent.start for agent in scenario.agents])
     path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
-    places = (starts[:, None] + path[None]).reshape(-1, 3)
-    low, high = places.min(axis=0), places.max(axis=0)
+    places = [starts + shift for shift in path]
+    for obstacle in scenario.obstacles:
+        if obstacle.motion is not None:
+            shifts = [way.position for way in getattr(obstacle.motion, "waypoints", ())]
+            places.append(obstacle.translation + np.array(shifts or [(0.0, 0.0, 0.0)]))
+    low, high = np.concatenate(places).min(axis=0), np.concatenate(places).max(axis=0)
     low[2] = min(low[2], 0.0)
     return low, high
 

@@ -75,6 +75,7 @@ COLLISION = Section(
         "margin": _MARGIN,
         "speed_margin": Number("s", at_least=0.0, at_most=10.0),
         "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
+        "obstacle_velocity": Flag(),
         "gradient": Choice("features", "minimum"),
         "backend": Choice("native", "reference"),
     },

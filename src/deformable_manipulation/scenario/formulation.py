@@ -14,7 +14,12 @@ _PAPERS = {
     "jacobian": "perturbed_copies",
     "differences": "forward",
     "feedforward": False,
-    "collision": {"margin": 0.0, "speed_margin": 0.0, "gradient": "minimum"},
+    "collision": {
+        "margin": 0.0,
+        "speed_margin": 0.0,
+        "obstacle_velocity": False,
+        "gradient": "minimum",
+    },
     "overstretch": {"margin": 0.0},
     "proximity": {"margin": 0.0},
 }

@@ -57,6 +57,8 @@ def _object(spec) -> Dict[str, Any]:
 
 def _obstacle(obstacle) -> Dict[str, Any]:
     mapping = _plain(obstacle)
+    if obstacle.motion is None:
+        del mapping["motion"]
     if isinstance(obstacle, PolygonObstacle):
         mapping = {"name": mapping.pop("name"), "polygon": mapping.pop("points"), **mapping}
     return mapping

@@ -6,6 +6,7 @@ from deformable_manipulation.distance.polygons import PolygonError, Ring, check_
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.files import resolve_file
 from deformable_manipulation.scenario.meshes import MeshFile, Scale
+from deformable_manipulation.scenario.motions import MOTION
 from deformable_manipulation.scenario.names import ONE_LINE
 from deformable_manipulation.scenario.readers import (
     Array,
@@ -49,6 +50,7 @@ POLYGON_OBSTACLE = Section(
         "plane": Choice("xy", "yz", "xz"),
         "translation": position(),
         "rotation": UnitQuaternion(),
+        "motion": MOTION,
     },
     rename={"polygon": "points"},
 )
@@ -62,6 +64,7 @@ MESH_OBSTACLE = Section(
         "translation": position(),
         "rotation": UnitQuaternion(),
         "scale": Scale(),
+        "motion": MOTION,
     },
 )
 
@@ -76,7 +79,7 @@ def _read_obstacle(node: Node) -> Obstacle:
 
 OBSTACLE = Custom(
     _read_obstacle,
-    "a section with keys name, polygon and plane or mesh and scale, translation, rotation",
+    "a section with keys name, polygon and plane or mesh and scale, translation, rotation, motion",
 )
 
 

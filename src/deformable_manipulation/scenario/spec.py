@@ -98,6 +98,39 @@ class AgentSpec:
 
 
 @dataclass(frozen=True)
+class PoseWaypoint:
+    """Where an obstacle is at a time, relative to its own pose."""
+
+    time: float  # s
+    position: Vector = (0.0, 0.0, 0.0)  # m, added to the translation
+    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)  # turns it about its origin, after its rotation
+
+
+@dataclass(frozen=True)
+class PathMotion:
+    """An obstacle's scripted way; smooth between the waypoints, at rest before and after."""
+
+    waypoints: Tuple[PoseWaypoint, ...]
+
+
+@dataclass(frozen=True)
+class TopicMotion:
+    """An obstacle whose pose somebody publishes, as geometry_msgs/PoseStamped."""
+
+    topic: str
+
+
+@dataclass(frozen=True)
+class FrameMotion:
+    """An obstacle that is where a tf frame is."""
+
+    frame: str
+
+
+Motion = Union[PathMotion, TopicMotion, FrameMotion]
+
+
+@dataclass(frozen=True)
 class PolygonObstacle:
     """A polygon in a plane, endless along the plane's normal.
 
@@ -110,6 +143,7 @@ class PolygonObstacle:
     plane: str = "yz"  # "xy", "yz" or "xz"
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
+    motion: Optional[Motion] = None  # None: it stands still
 
 
 @dataclass(frozen=True)
@@ -124,6 +158,7 @@ class MeshObstacle:
     translation: Vector = (0.0, 0.0, 0.0)  # m
     rotation: Quaternion = (0.0, 0.0, 0.0, 1.0)
     scale: Vector = (1.0, 1.0, 1.0)  # m per unit of the file, along the file's axes
+    motion: Optional[Motion] = None  # None: it stands still
 
 
 @dataclass(frozen=True)
@@ -165,6 +200,7 @@ class CollisionSpec:
     margin: float = 0.002  # m, beyond the offset, that the rows keep
     speed_margin: float = 0.0  # s, more of it per m/s of the leader's speed
     band: float = 0.1  # m, features up to this much farther than the nearest get a row of their own
+    obstacle_velocity: bool = True  # of moving obstacles, in the rows
     gradient: str = "features"  # "features": each near feature; "minimum": the paper's single row
     backend: str = "native"  # of the distances; "reference": Trimesh, FCL and Shapely, slow
 

@@ -7,8 +7,8 @@ from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
 from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint, WorkspaceSpec
 
-WAYPOINT = Section(Waypoint, {"time": Number("s", at_least=0.0, at_most=1e6),
-                              "position": position()})
+TIME = Number("s", at_least=0.0, at_most=1e6)
+WAYPOINT = Section(Waypoint, {"time": TIME, "position": position()})
 
 
 _SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end
@@ -25,7 +25,8 @@ class Waypoints:
             node.fail("must be {}".format(self.allowed))
         waypoints = read_items(node, WAYPOINT)
         _check_first(node, waypoints[0])
-        _check_times(node, waypoints)
+        check_times(node, waypoints)
+        _check_speeds(node, waypoints)
         return waypoints
 
 
@@ -40,7 +41,8 @@ def _check_first(node: Node, first: Waypoint) -> None:
         )
 
 
-def _check_times(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
+def check_times(node: Node, waypoints) -> None:
+    """Each waypoint comes after the one before."""
     for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
         if waypoint.time - before.time < _SHORTEST_PIECE:
             node.report.add(
@@ -50,15 +52,19 @@ def _check_times(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
                 ),
                 show(waypoint.time),
             )
-        elif math.dist(waypoint.position, before.position) > _LARGEST_SPEED * (
-            waypoint.time - before.time
-        ):
+
+
+def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
+    for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
+        duration = waypoint.time - before.time
+        farthest = _LARGEST_SPEED * duration
+        if duration < _SHORTEST_PIECE:
+            continue  # reported
+        if math.dist(waypoint.position, before.position) > farthest:
             node.report.add(
                 node.path + (str(index), "position"),
                 "must be at most {:.4g} m from the waypoint before, {:g} m/s in {:g} s".format(
-                    _LARGEST_SPEED * (waypoint.time - before.time),
-                    _LARGEST_SPEED,
-                    waypoint.time - before.time,
+                    farthest, _LARGEST_SPEED, duration
                 ),
                 show(list(waypoint.position)),
             )

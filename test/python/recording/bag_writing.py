@@ -79,7 +79,7 @@ class BagWriter:
         message = self._message(CONTROLLER_STATE, cycle, reset_count, values)
         self.write(f"{namespace}/{agent}/controller_state", CONTROLLER_STATE, message)
 
-    def distances(self, cycle, namespace="", reset_count=0, minimum=None):
+    def distances(self, cycle, namespace="", reset_count=0, minimum=None, obstacle_poses=()):
         minimum = make_decision(cycle).distance if minimum is None else minimum
         numbers = {
             name: np.zeros(0, dtype)
@@ -98,6 +98,9 @@ class BagWriter:
         values = dict(
             numbers,
             obstacles=["ground"],
+            moving_obstacles=[f"obstacle_{k}" for k in range(len(obstacle_poses))],
+            obstacle_poses=np.ravel(obstacle_poses).astype(float),
+            fault="",
             minimum_distances=np.array([minimum, 7.0]),
             feature_offsets=np.zeros(3, np.uint32),
             computation_time=1e-4,

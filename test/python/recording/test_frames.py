@@ -1,5 +1,7 @@
 """Frames of a run folder and of a bag."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from bag_writing import BagWriter
@@ -7,6 +9,7 @@ from synthetic_run import RATE, make_record, make_scenario
 
 from deformable_manipulation.recording import RunDataError, RunRecorder, read_run
 from deformable_manipulation.recording.frames import read_frames
+from deformable_manipulation.scenario.spec import PolygonObstacle, TopicMotion
 
 CYCLES = 41  # at 100 Hz; frames at 10 Hz
 
@@ -37,7 +40,10 @@ def write_bag(path, scenario, cycles, reset_count=0, info="/run_info"):
                 # In another order than the scenario's.
                 agents = dict(reversed(list(zip(names, record.positions + run))))
                 writer.object_state(cycle, record.points, agents, reset_count=run)
-                writer.cycle(cycle, reset_count=run)
+                writer.distances(
+                    cycle, reset_count=run, obstacle_poses=record.obstacles + run
+                )
+                writer.controller_state(cycle, reset_count=run)
 
 
 def test_a_folder_has_the_frames_that_were_recorded(run_folder, scenario):
@@ -58,6 +64,24 @@ def test_a_bag_of_the_same_run_has_the_same(run_folder, scenario, tmp_path):
     assert bag.scenario == folder.scenario
     for name in ("times", "points", "agents"):
         np.testing.assert_allclose(getattr(bag, name), getattr(folder, name), atol=1e-6)
+
+
+def test_folder_and_bag_have_the_poses_of_moving_obstacles(scenario, tmp_path):
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+    standing = PolygonObstacle("standing", corners)
+    moving = dataclasses.replace(standing, name="moving", motion=TopicMotion("pose"))
+    scenario = dataclasses.replace(scenario, obstacles=(standing, moving))
+    recorder = RunRecorder(scenario, tmp_path / "folder")
+    for cycle in range(CYCLES):
+        recorder.record(make_record(scenario, cycle))
+    recorder.finish(1.0, True)
+    write_bag(tmp_path / "run.bag", scenario, range(CYCLES), reset_count=1)
+    for name, shift in (("folder", 0.0), ("run.bag", 1.0)):
+        frames = read_frames(read_run(tmp_path / name))
+        expected = [np.full((1, 7), 10.0 * frame + shift) for frame in range(5)]
+        np.testing.assert_allclose(frames.obstacles, expected)
+        assert frames.obstacles_at(2)[0] == standing
+        assert frames.obstacles_at(2)[1].translation == (20.0 + shift,) * 3
 
 
 @pytest.mark.parametrize("topic", ["run_info", "/left/run_info"])

@@ -1,5 +1,6 @@
 """Messages, as a node receives them, and the core's arrays."""
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from messages import distances_message, state_message, transmitted
 
 from deformable_manipulation.closed_loop import ClosedLoop, make_minimum_distance
 from deformable_manipulation.control.observation import find_fault
+from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import conversions
 from deformable_manipulation.ros.conversions import MessageError
@@ -142,13 +144,40 @@ def test_another_frame_is_refused(state, distances, scenario, kind):
 
 @pytest.mark.parametrize(
     "field",
-    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights",
-     "obstacle_velocities"],
+    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights"],
 )
 def test_distances_that_do_not_fit_are_refused_by_name(distances, field):
     setattr(distances, field, getattr(distances, field)[:-1])
     with pytest.raises(MessageError, match="^" + field):
         conversions.to_distances(transmitted(distances))
+
+
+def test_the_velocities_of_obstacles_are_sent_where_one_moves(state, computed):
+    velocity = np.arange(3.0 * len(computed.distance)).reshape(-1, 3)
+    moved = dataclasses.replace(computed, obstacle_velocity=velocity)
+    pose = np.arange(7.0)[None]
+    message = conversions.fill_distances(
+        distances_message(), state, moved, 0.0, ["ground"], pose
+    )
+    received = transmitted(message)
+    assert (received.moving_obstacles, list(received.obstacle_poses)) == (["ground"], list(pose[0]))
+    np.testing.assert_array_equal(conversions.to_distances(received).obstacle_velocity, velocity)
+    message.obstacle_velocities = message.obstacle_velocities[:-1]
+    with pytest.raises(MessageError, match="^obstacle_velocities"):
+        conversions.to_distances(transmitted(message))
+
+
+def test_distances_that_are_unusable_say_so(state, scenario):
+    copies = len(state.displaced_agents)
+    message = conversions.fill_distances(
+        distances_message(), state, Distances.unknown(copies, ("ground",)), 0.0, fault="it is lost"
+    )
+    with pytest.raises(MessageError, match="^it is lost$"):
+        conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    message.fault = ""
+    # Nor are they taken for those of a run without obstacles.
+    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    assert "distances.minimum" in find_fault(seen, len(FILE_ORDER))
 
 
 def test_a_decision_as_a_message(state, scenario):

@@ -1,3 +1,5 @@
+import dataclasses
+
 import numpy as np
 import pytest
 from std_msgs.msg import Header
@@ -6,7 +8,7 @@ from visualization_msgs.msg import Marker
 from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.scenario import load_scenario, package_share_directory
-from deformable_manipulation.scenario.spec import MeshObstacle
+from deformable_manipulation.scenario.spec import MeshObstacle, TopicMotion
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +77,17 @@ def test_a_large_mesh_is_left_to_rviz(monkeypatch):
     assert (marker.scale.x, marker.scale.y, marker.scale.z) == CUBE.scale
     assert (marker.pose.position.x, marker.pose.orientation.z) == (1.0, 0.6)
     assert marker.color.a == 1.0
+
+
+def test_a_moving_obstacle_is_drawn_in_a_frame_of_its_own():
+    moving = dataclasses.replace(CUBE, motion=TopicMotion("pose"))
+    (marker,) = obstacle_markers([moving], "map", tf_prefix="one/").markers
+    assert marker.header.frame_id == "one/obstacle_cube" and marker.frame_locked
+    corners = np.array([(p.x, p.y, p.z) for p in marker.points])
+    np.testing.assert_allclose(corners.min(axis=0), [-0.5, -1.0, 0.0])
+    np.testing.assert_allclose(corners.max(axis=0), [0.5, 1.0, 3.0])
+    (standing,) = obstacle_markers([CUBE], "map", tf_prefix="one/").markers
+    assert standing.header.frame_id == "map" and not standing.frame_locked
 
 
 def straight_ropes(heights):

@@ -16,6 +16,7 @@ from deformable_manipulation.scenario.controller import (
 )
 from deformable_manipulation.scenario.fabric import FABRIC
 from deformable_manipulation.scenario.loader import SCENARIO
+from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
 from deformable_manipulation.scenario.rod import POSE, ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
@@ -29,6 +30,8 @@ SECTIONS = {
     "agents": AGENT,
     "obstacles: polygon": POLYGON_OBSTACLE,
     "obstacles: mesh": MESH_OBSTACLE,
+    "obstacles: motion": MOTION,
+    "obstacles: motion.waypoints": POSE_WAYPOINT,
     "leader": LEADER_PATH,
     "leader.waypoints": WAYPOINT,
     "leader.workspace": WORKSPACE,
