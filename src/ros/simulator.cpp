@@ -3,6 +3,8 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <cstdio>
+
 #include "state_message.h"
 
 namespace deformable_manipulation {
@@ -12,6 +14,9 @@ constexpr double kWarningPeriod = 5.0;  // s
 
 // States kept for a subscriber that is slow for a moment: a recorder must not lose any.
 constexpr int kQueue = 100;
+
+// Fewer cycles than publishers keep messages for a recorder that is slow.
+constexpr long kAheadOfRecorder = 50;
 
 // Simulated time does not begin at zero, which in ROS means "not known yet".
 constexpr double kStartOfTime = 1.0;  // s
@@ -43,6 +48,11 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
   if (options_.lockstep) {
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1, latch);
+    if (options_.recorded) {
+      recorder_subscriber_ = node_.subscribe<std_msgs::Header>(
+          "recorded", 1, [this](const std_msgs::HeaderConstPtr& newest) { recorded_ = newest->stamp; }, {},
+          ros::TransportHints().tcpNoDelay());
+    }
   }
   links_.reserve(scenario_.agents.size());  // they are subscribed with their addresses
   for (std::size_t i = 0; i < scenario_.agents.size(); ++i) {
@@ -74,8 +84,11 @@ void Simulator::run() {
     awaitPermission();
   }
   if (ros::ok()) {
-    ROS_INFO("End of the scenario after %.2f s; %ld overruns.", simulation_.time(), overruns_);
+    await([this] { return unrecorded(0); });
+    ROS_INFO("End of the scenario after %.2f s.", simulation_.time());
   }
+  // The console of ROS is closed when the node has been told to leave.
+  std::printf("%s: Overruns: %ld of %ld cycles.\n", ros::this_node::getName().c_str(), overruns_, published_);
 }
 
 bool Simulator::atEnd() const {
@@ -139,15 +152,32 @@ void Simulator::addResponse() {
 }
 
 void Simulator::awaitCommands() {
+  await([this] {
+    const std::string names = unanswered();
+    return names.empty() ? unrecorded(kAheadOfRecorder)
+                         : "the command of cycle " + std::to_string(state_.cycle) + " from " + names;
+  });
+}
+
+//! Waits in lock-step for what others have to do first.
+//! @param missing  what has not been done; empty if nothing
+void Simulator::await(const std::function<std::string()>& missing) {
   SteadyClock::time_point warn_at = SteadyClock::now() + seconds(kWarningPeriod);
-  while (ros::ok() && !control_.resetWanted() && !unanswered().empty()) {
+  for (std::string what = missing(); ros::ok() && !control_.resetWanted() && !what.empty(); what = missing()) {
     spinFor(0.1);
     if (SteadyClock::now() > warn_at) {
-      ROS_WARN_STREAM("Lock-step: still waiting for the command of cycle " << state_.cycle << " from " << unanswered()
-                                                                           << ".");
+      ROS_WARN_STREAM("Lock-step: still waiting for " << what << ".");
       warn_at = SteadyClock::now() + seconds(kWarningPeriod);
     }
   }
+}
+
+//! The recorder, if it lacks states older than so many cycles, or answers to them.
+std::string Simulator::unrecorded(long allowed) const {
+  const double age = (state_.header.stamp - recorded_).toSec();
+  const double cycle_time = scenario_.clock.cycleTime();
+  const bool behind = options_.lockstep && options_.recorded && age > (allowed + 0.5) * cycle_time;
+  return behind ? "the recorder, which has not written all messages" : "";
 }
 
 std::string Simulator::unanswered() const {

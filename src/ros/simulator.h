@@ -1,8 +1,10 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <std_msgs/Header.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct SimulatorOptions {
   std::string pose_namespace;  // prefix of the pose topics followed
   std::string tf_prefix;       // of the agents' frames
   int state_subscribers = 0;   // to wait for before the first state
+  bool recorded = false;       // lock-step: do not get far ahead of the recorder
 };
 
 //! The simulation as a ROS node: states out, commands in (docs/interfaces.md).
@@ -46,11 +49,13 @@ class Simulator {
   void publish();
   void addResponse();
   void awaitCommands();
+  void await(const std::function<std::string()>& missing);
   void awaitTick();
   void awaitPermission();
   void applyInputs();
   bool agentsAreTrue() const;
   std::string unanswered() const;
+  std::string unrecorded(long allowed) const;
   bool atEnd() const;
 
   SimulatorScenario scenario_;
@@ -58,6 +63,7 @@ class Simulator {
   pbd::Simulation simulation_;
   ros::NodeHandle node_;
   ros::Publisher state_publisher_, clock_publisher_;
+  ros::Subscriber recorder_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
   LivePerturbation live_perturbation_;
@@ -68,6 +74,7 @@ class Simulator {
   ObjectState state_;
   long published_ = 0;  // states since the start, over all resets
   long overruns_ = 0;
+  ros::Time recorded_;  // stamp up to which everything is
   SteadyClock::time_point next_tick_;
 };
 

@@ -26,12 +26,9 @@ from deformable_manipulation.msg import ControllerState
 
 AGENT = "assistant_1"
 FOLLOWING = (Status.NOMINAL, Status.CONSTRAINED)
-EXECUTABLES = {
-    "simulator": "simulator_node",
-    "minimum_distance": "minimum_distance_node",
-    "leader": "leader_node",
-    "controller": "controller_node",
-}
+COMMON = {"simulator": "simulator_node", "leader": "leader_node"}
+ONE_PROCESS = {"assistants": "assistants_node"}
+PROCESSES = {"minimum_distance": "minimum_distance_node", "controller": "controller_node"}
 _MOVING = 0.01  # m/s
 _STANDING = 20  # cycles at rest in a row
 _SCHEDULING = 0.5  # s, by which a busy machine may let a message wait
@@ -44,8 +41,12 @@ class FaultTest(unittest.TestCase):
     def setUpClass(cls):
         cls.scenario = read_scenario()
         cls.row = [agent.name for agent in cls.scenario.agents].index(AGENT)
-        poll(lambda: all(map(process_of, EXECUTABLES)), "all nodes")
-        cls.processes = {name: process_of(name) for name in EXECUTABLES}
+        cls.one_process = rospy.get_param("one_process")
+        cls.executables = {**COMMON, **(ONE_PROCESS if cls.one_process else PROCESSES)}
+        #: Name of the node with the controller.
+        cls.controller = "assistants" if cls.one_process else "controller"
+        poll(lambda: all(map(process_of, cls.executables)), "all nodes")
+        cls.processes = {name: process_of(name) for name in cls.executables}
         cls.log = Messages("/rosout", Log)
         cls.decisions = Messages(AGENT + "/controller_state", ControllerState)
         cls.states = observe_states()
@@ -137,7 +138,7 @@ class FaultTest(unittest.TestCase):
 
     def start(self, name, *arguments, executable=None):
         """Start a node, with the parameters it had if it ran before."""
-        (path,) = find_node(PACKAGE, executable or EXECUTABLES[name])[:1]
+        (path,) = find_node(PACKAGE, executable or self.executables[name])[:1]
         process = subprocess.Popen([path, "__name:=" + name, *arguments])
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)

@@ -9,16 +9,17 @@ from faulty_run import FaultTest
 from observed_run import Messages, call, run_tests
 from std_srvs.srv import SetBool
 
+PROGRAM = "controller: assistant_1 quadratic program"
 REPORTS = {
     "simulator: loop",
     "simulator: object",
     "simulator: agents",
-    "minimum_distance: cycle",
+    "minimum_distance: distances",
     "leader: cycle",
     "leader: motion",
     "controller: cycle",
     "controller: inputs",
-    "controller: quadratic program",
+    PROGRAM,
 }
 _STARTING = "Node starting up"  # as diagnostic_updater says at once
 
@@ -58,7 +59,7 @@ class DiagnosticsTest(FaultTest):
         self.assertEqual(set(loop), {"leader", "assistant_1"})
         values = self.wait_for_report("simulator: object", DiagnosticStatus.OK, "Solved")
         self.assertLess(abs(float(values["relative error of its length"])), 1e-3)
-        program = self.wait_for_report("controller: quadratic program", DiagnosticStatus.OK)
+        program = self.wait_for_report(PROGRAM, DiagnosticStatus.OK)
         self.assertGreater(float(program["lowest distance [m]"]), 0.0)
         self.assertIn("largest slack, collision [m/s]", program)
         self.wait_for_report("controller: inputs", DiagnosticStatus.OK, "All inputs come in time.")
@@ -70,7 +71,7 @@ class DiagnosticsTest(FaultTest):
         try:
             self.wait_for_report("controller: inputs", DiagnosticStatus.STALE, "No distances for")
             self.wait_for_report(
-                "controller: quadratic program", DiagnosticStatus.ERROR, "no distances for"
+                PROGRAM, DiagnosticStatus.ERROR, "no distances for"
             )
             self.wait_for_report(
                 "controller: cycle", DiagnosticStatus.STALE, "No state to answer for"

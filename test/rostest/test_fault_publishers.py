@@ -16,7 +16,7 @@ SENTENCE = "nodes send commands on /assistant_1/cmd_vel"
 class FaultPublishersTest(FaultTest):
     def assert_only_the_assistant_stands(self, since, sender):
         stopped = self.assert_stops(since)
-        self.assert_says("assistant_1 stands still: 2", SENTENCE, "/controller", sender)
+        self.assert_says("assistant_1 stands still: 2", SENTENCE, "/" + self.controller, sender)
         self.assertTrue(self.velocity(stopped, self.scenario.leader_index).any())
 
     def test_a_second_controller_that_is_killed(self):

@@ -26,7 +26,7 @@ class LiveParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.scenario = read_scenario()
-        cls.controller = Client(AGENT + "_controller", timeout=DEADLINE)
+        cls.controller = Client(AGENT, timeout=DEADLINE)
         cls.simulator = Client("simulator", timeout=DEADLINE)
         cls.decisions = observe_controllers(cls.scenario)[AGENT]
         cls.states = observe_states()

@@ -16,7 +16,13 @@ from roslib.packages import find_node
 
 from deformable_manipulation.scenario import load_scenario, scenario_to_mapping
 
-NODES = ("simulator_node", "minimum_distance_node", "leader_node", "controller_node")
+NODES = (
+    "simulator_node",
+    "minimum_distance_node",
+    "leader_node",
+    "controller_node",
+    "assistants_node",
+)
 SHORT_ROPE = Path(__file__).resolve().parent / "short_rope.yaml"
 SMALL_FABRIC = SHORT_ROPE.with_name("small_fabric.yaml")
 
@@ -115,13 +121,14 @@ class RefusalsTest(unittest.TestCase):
 
     def test_a_controller_of_nobody(self):
         rospy.set_param("/right/scenario", correct_scenario())
-        for arguments in ([], ["_agent:=leader"]):
-            with self.subTest(arguments=arguments):
-                self.assert_refuses(
-                    start_node("controller_node", "/right", *arguments),
-                    "/right/controller_node/agent",
-                    "assistant_1",
-                )
+        for node, parameter in (("controller_node", "agent"), ("assistants_node", "agents")):
+            for arguments in ([], ["_{}:=leader".format(parameter)]):
+                with self.subTest(node=node, arguments=arguments):
+                    self.assert_refuses(
+                        start_node(node, "/right", *arguments),
+                        "/right/{}/{}".format(node, parameter),
+                        "assistant_1",
+                    )
 
     def assert_launch_refuses(self, path, *texts, arguments=()):
         """A launch with this scenario file and arguments ends before any node starts."""
@@ -178,9 +185,17 @@ class RefusalsTest(unittest.TestCase):
         )
 
     def test_a_lock_step_run_ends_when_a_node_has_gone(self):
-        for name in ("assistant_1_controller", "minimum_distance", "leader"):
+        for name, one_process in (
+            ("assistants", "true"),
+            ("leader", "true"),
+            ("assistant_1_controller", "false"),
+            ("minimum_distance", "false"),
+        ):
             launch, master = start_launch(
-                "scenario:={}".format(SHORT_ROPE), "lockstep:=true", "stop_at_end:=false"
+                "scenario:={}".format(SHORT_ROPE),
+                "lockstep:=true",
+                "stop_at_end:=false",
+                "one_process:=" + one_process,
             )
             with self.subTest(node=name), launch:
                 kill_node("/" + name, master)

@@ -24,7 +24,7 @@ SCENARIO = str(SHARE / "test" / "rostest" / "short_rope.yaml")
 SIZE = (640, 400)
 MARK = "RVIZ_SNAPSHOT_TEST"  # in the environment of all its programs
 
-RUN_BESIDE = {"/simulator", "/minimum_distance", "/leader", "/assistant_1_controller"}
+RUN_BESIDE = {"/simulator", "/leader", "/assistants"}
 
 
 class RvizSnapshotTest(unittest.TestCase):

@@ -32,14 +32,17 @@ def kill(name):
 
 class ShutdownTest(unittest.TestCase):
     def test_the_last_command_is_zero(self):
-        stops = {"middle_assistant": interrupt, "end_assistant": kill}
-        commands = {agent: Messages(agent + "/cmd_vel", TwistStamped) for agent in stops}
+        agents = ("middle_assistant", "end_assistant")
+        commands = {agent: Messages(agent + "/cmd_vel", TwistStamped) for agent in agents}
         states = observe_states()
         states.wait_for_cycle(20)
         for messages in commands.values():
             messages.wait_for(speed, "a command to move")
-        for agent, stop in stops.items():
-            stop("/{}_controller".format(agent))
+        if rospy.get_param("~one_process", False):
+            interrupt("/assistants")
+        else:
+            interrupt("/middle_assistant_controller")
+            kill("/end_assistant_controller")
         for agent, messages in commands.items():
             poll(messages.is_disconnected, "the end of {}'s controller".format(agent))
             last = [speed(message) for message in messages[-30:]]

@@ -41,20 +41,13 @@ def agent_positions(state, scenario) -> np.ndarray:
 
 
 def to_observation(state, distances, scenario) -> Observation:
-    """What a controller sees, from an ``ObjectState`` and the ``Distances`` of the same cycle.
+    """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
     Time counts from the start of the run: cycles of the scenario's rate.
 
-    Raises MessageError: another frame, an array's size does not fit, an agent is missing, or the
-    distances are unusable by what they say themselves.
+    Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
-    if distances.fault:
-        raise MessageError(distances.fault)
-    for name, message in (("state", state), ("distances", distances)):
-        if message.header.frame_id != scenario.frame:
-            raise MessageError(
-                f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
-            )
+    require_frame("state", state, scenario)
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
     scenario_index[order] = np.arange(len(order))
@@ -72,9 +65,29 @@ def to_observation(state, distances, scenario) -> Observation:
         displaced_agents=scenario_index[displaced],
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
-        distances=to_distances(distances),
+        distances=distances,
         sensitivities=_sensitivities(state, order),
     )
+
+
+def usable_distances(message, scenario) -> Distances:
+    """The core's Distances of a ``Distances`` message.
+
+    Raises MessageError: another frame, an array's size does not fit, or it says itself that they
+    are not known.
+    """
+    require_frame("distances", message, scenario)
+    if message.fault:
+        raise MessageError(message.fault)
+    return to_distances(message)
+
+
+def require_frame(name, message, scenario):
+    """Raises MessageError: a message, called so, is not in the scenario's frame."""
+    if message.header.frame_id != scenario.frame:
+        raise MessageError(
+            f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
+        )
 
 
 def _sensitivities(state, order):

@@ -45,18 +45,31 @@ class CyclePairing:
                 self._callback(self._states.pop(key), self._distances.pop(key))
 
 
-class _Waiting:
-    """Messages of one kind that wait for their counterpart, the oldest first."""
+class Advance:
+    """Tells the messages of one kind that are newer than all before."""
 
     def __init__(self):
         self.newest = None
+
+    def take(self, message):
+        """Whether a message is newer than all before."""
+        newer = self.newest is None or _is_newer(message, self.newest)
+        if newer:
+            self.newest = message
+        return newer
+
+
+class _Waiting(Advance):
+    """Messages of one kind that wait for their counterpart, the oldest first."""
+
+    def __init__(self):
+        super().__init__()
         self._messages = deque(maxlen=_KEPT)
 
     def add(self, message):
         """Keep a message if it is newer than all before; whether it is."""
-        newer = self.newest is None or _is_newer(message, self.newest)
+        newer = self.take(message)
         if newer:
-            self.newest = message
             self._messages.append(message)
         return newer
 

@@ -29,11 +29,6 @@ def cycle_monitor(scenario):
     return CycleMonitor(None if lockstep else scenario.controller.rate)
 
 
-def age_of(state):
-    """Time [s] since a state's stamp."""
-    return (rospy.Time.now() - state.header.stamp).to_sec()
-
-
 def _task(report):
     def run(status):
         result = report()

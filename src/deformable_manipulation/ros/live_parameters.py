@@ -68,21 +68,22 @@ def changed(scenario, values):
 
 
 class LiveParameters:
-    """Offers a controller's parameters on ``~set_parameters``, first with the scenario's values.
+    """Offers a controller's parameters on ``<agent>/set_parameters``, first the scenario's values.
 
     Changes are checked together; those that do not go with each other, or with the object, are
     refused as a whole, with the reason in the parameter ``outcome`` and in the log.
 
     Args:
         scenario: the checked scenario.
+        agent: name of the assistant.
         apply: called with a changed scenario; what it raises as ValueError refuses it, too.
     """
 
-    def __init__(self, scenario, apply):
+    def __init__(self, scenario, agent, apply):
         self._scenario = scenario
         self._apply = apply
         _widen_ranges(values_of(scenario))
-        self._server = Server(ControllerConfig, self._change)
+        self._server = Server(ControllerConfig, self._change, rospy.resolve_name(agent))
 
     def _change(self, config, level):
         present = values_of(self._scenario)

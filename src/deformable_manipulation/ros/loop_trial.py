@@ -1,25 +1,30 @@
 """A run in real time, watched from outside: latency of the commands, load of the nodes."""
 
+import os
+import re
 import subprocess
 import time
 import xmlrpc.client
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 import rosgraph
 from rosbags.rosbag1 import Reader
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from deformable_manipulation.control.status import Status
 from deformable_manipulation.ros.launched_run import launch_command
 from deformable_manipulation.ros.process_usage import usage_of
 from deformable_manipulation.ros.program import Program, ProgramError
 
 _START = 120.0  # s, for the object to settle and all nodes to work
-_WARM_UP = 3.0  # s
 _PATIENCE = 30.0  # s, beyond the recording's length
 _CALLER = "/loop_trial"
+_OVERRUNS = re.compile(
+    r"/(\S+): Overruns: (\d+) of \d+ cycles(?:, (\d+) states skipped)?\."
+)
 
 
 @dataclass(frozen=True)
@@ -28,6 +33,8 @@ class NodeLoad:
 
     share: float  # of one core
     memory: int  # bytes (PSS) at the end
+    overruns: Optional[int]  # cycles, of the whole run; None: the node does not say
+    skipped: Optional[int]  # states, of the whole run; None: the node does not say
 
 
 @dataclass(frozen=True)
@@ -36,6 +43,7 @@ class Commands:
 
     stamps: np.ndarray  # (N,) s, of the states that they answer
     latencies: np.ndarray  # (N,) s, from the stamp to the receipt
+    status: str = ""  # name of the controller's status after the last of them
 
     @property
     def rate(self) -> float:
@@ -55,7 +63,7 @@ class LoopMeasurement:
     nodes: Dict[str, NodeLoad]
 
 
-def watch_loop(scenario, directory, seconds: float) -> LoopMeasurement:
+def watch_loop(scenario, directory, seconds, warm_up, one_process=True) -> LoopMeasurement:
     """Run a scenario in real time and measure it.
 
     The commands are recorded by ``rosbag record``, a process of its own, whose time of receipt is
@@ -65,34 +73,59 @@ def watch_loop(scenario, directory, seconds: float) -> LoopMeasurement:
         scenario: the checked scenario.
         directory: existing folder for files.
         seconds: how long it is measured.
+        warm_up: time [s] from the first command until then.
+        one_process: distances and controllers in one process.
 
     Raises:
         ProgramError: the run does not start or ends by itself.
     """
     directory = Path(directory)
     assistants = [scenario.agents[index].name for index in scenario.assistants]
-    nodes = ["simulator", "minimum_distance", "leader"]
-    nodes += [f"{name}_controller" for name in assistants]
-    command = launch_command(scenario, directory, lockstep="false")
-    with Program("the run", command, directory / "run.log") as run:
+    nodes = _nodes(assistants, one_process)
+    command = launch_command(
+        scenario, directory, lockstep="false", one_process=str(one_process).lower()
+    )
+    log = directory / "run.log"
+    environment = {**os.environ, "ROSCONSOLE_FORMAT": "${node}: ${message}"}
+    with Program("the run", command, log, environment) as run:
         topics = [f"/{name}/cmd_vel" for name in assistants]
         _record(topics, _START, directory / "first.bag", limit=1)  # all of them work
         run.check()
         pids = {node: _pid_of(node) for node in nodes}
-        _record(topics, _WARM_UP, directory / "warm_up.bag")
+        _record(topics, warm_up, directory / "warm_up.bag")
         before = {node: usage_of(pid) for node, pid in pids.items()}
         started = time.monotonic()
         _record(topics, seconds, directory / "commands.bag")
         elapsed = time.monotonic() - started
         after = {node: usage_of(pid) for node, pid in pids.items()}
+        states = [f"/{name}/controller_state" for name in assistants]
+        _record(states, _PATIENCE, directory / "states.bag", limit=1)
         run.check()
+    overruns = read_overruns(log.read_text(errors="replace"))
     loads = {
         node: NodeLoad(
-            (after[node].processor - before[node].processor) / elapsed, after[node].memory
+            (after[node].processor - before[node].processor) / elapsed,
+            after[node].memory,
+            *overruns.get(node, (None, None)),
         )
         for node in nodes
     }
-    return LoopMeasurement(_read_commands(directory / "commands.bag", assistants), loads)
+    return LoopMeasurement(_read_commands(directory, assistants), loads)
+
+
+def read_overruns(log: str) -> Dict[str, Tuple[int, Optional[int]]]:
+    """What each node says, when it leaves, of its overruns and of the states that it skipped."""
+    return {
+        name: (int(overruns), int(skipped) if skipped else None)
+        for name, overruns, skipped in _OVERRUNS.findall(log)
+    }
+
+
+def _nodes(assistants, one_process) -> List[str]:
+    if one_process:
+        return ["simulator", "leader", "assistants"]
+    controllers = [f"{name}_controller" for name in assistants]
+    return ["simulator", "leader", "minimum_distance", *controllers]
 
 
 def _record(topics: List[str], seconds: float, path: Path, limit=None) -> None:
@@ -119,15 +152,28 @@ def _pid_of(node: str) -> int:
         raise ProgramError(f"the node {node} does not answer: {error}") from error
 
 
-def _read_commands(path: Path, assistants) -> Dict[str, Commands]:
-    types = get_typestore(Stores.ROS1_NOETIC)
+def _read_commands(directory: Path, assistants) -> Dict[str, Commands]:
+    states = {name: state for name, _, state in _read(directory / "states.bag")}
     found: Dict[str, List[Tuple[int, int]]] = {name: [] for name in assistants}
-    with Reader(path) as reader:
-        for connection, received, data in reader.messages():
-            stamp = types.deserialize_ros1(data, connection.msgtype).header.stamp
-            sent = stamp.sec * 10**9 + stamp.nanosec
-            found[connection.topic.split("/")[1]].append((sent, received - sent))
-    missing = [name for name, pairs in found.items() if not pairs]
+    for name, received, command in _read(directory / "commands.bag"):
+        stamp = command.header.stamp
+        sent = stamp.sec * 10**9 + stamp.nanosec
+        found[name].append((sent, received - sent))
+    missing = [name for name, pairs in found.items() if not pairs or name not in states]
     if missing:
-        raise ProgramError(f"no commands came from {', '.join(missing)}")
-    return {name: Commands(*(1e-9 * np.array(pairs).T)) for name, pairs in found.items()}
+        raise ProgramError(f"no commands or states came from {', '.join(missing)}")
+    return {
+        name: Commands(*(1e-9 * np.array(pairs).T), Status(states[name].status).name)
+        for name, pairs in found.items()
+    }
+
+
+def _read(path: Path):
+    """Agent, time of receipt [ns] and message, one by one."""
+    with Reader(path) as reader:
+        types = get_typestore(Stores.ROS1_NOETIC)
+        for connection in reader.connections:
+            types.register(get_types_from_msg(connection.msgdef.data, connection.msgtype))
+        for connection, received, data in reader.messages():
+            message = types.deserialize_ros1(data, connection.msgtype)
+            yield connection.topic.split("/")[1], received, message

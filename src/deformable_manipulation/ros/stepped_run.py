@@ -33,8 +33,11 @@ def stepped_run(scenario, directory):
     Raises:
         ProgramError: it does not start.
     """
-    # One observer, this process, so that the run does not start before it is paused.
-    command = launch_command(scenario, directory, lockstep="true", observers=1)
+    # One observer, this process, so that the run does not start before it is paused. A process for
+    # each thing that is drawn, for MarkerWatch knows only who draws.
+    command = launch_command(
+        scenario, directory, lockstep="true", observers=1, one_process="false"
+    )
     with Program("the run", command, Path(directory) / "run.log") as program:
         yield SteppedRun(scenario, program)
 

@@ -69,8 +69,14 @@ def distances(state, computed):
     return conversions.fill_distances(distances_message(), state, computed, 1e-3)
 
 
+def observation(state, distances, scenario):
+    """As a controller makes it of the messages that it receives."""
+    received = conversions.to_distances(transmitted(distances))
+    return conversions.to_observation(transmitted(state), received, scenario)
+
+
 def test_an_observation_is_the_simulation_s_state(state, distances, simulation, scenario):
-    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    seen = observation(state, distances, scenario)
     assert find_fault(seen, len(FILE_ORDER)) == ""
     assert (seen.cycle, seen.time) == (150, pytest.approx(1.5))
     for name in ("positions", "points", "displaced_agents", "displacements", "ready"):
@@ -105,7 +111,7 @@ def test_no_obstacle_gives_no_feature_and_an_infinite_distance(state, scenario, 
         obstacle_velocity=np.zeros((0, 3)),
     )
     message = conversions.fill_distances(distances_message(), state, nothing, 0.0)
-    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    seen = observation(state, message, scenario)
     assert find_fault(seen, len(FILE_ORDER)) == ""
     assert np.isinf(seen.distances.minimum).all()
 
@@ -131,15 +137,20 @@ def test_distances_carry_the_cycle_of_their_state(state, distances):
 def test_a_state_that_does_not_fit_is_refused_by_name(state, distances, scenario, field, change):
     setattr(state, field, change(state))
     with pytest.raises(MessageError, match="^" + field):
-        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+        observation(state, distances, scenario)
 
 
-@pytest.mark.parametrize("kind", ["state", "distances"])
-def test_another_frame_is_refused(state, distances, scenario, kind):
-    received = {"state": transmitted(state), "distances": transmitted(distances)}
-    received[kind].header.frame_id = "odom"
-    with pytest.raises(MessageError, match="frame_id: 'odom'.*'map'"):
-        conversions.to_observation(received["state"], received["distances"], scenario)
+def test_a_state_in_another_frame_is_refused(state, distances, scenario):
+    state.header.frame_id = "odom"
+    with pytest.raises(MessageError, match="state.header.frame_id: 'odom'.*'map'"):
+        observation(state, distances, scenario)
+
+
+def test_any_message_in_another_frame_is_refused_by_its_name(distances, scenario):
+    conversions.require_frame("distances", distances, scenario)
+    distances.header.frame_id = "odom"
+    with pytest.raises(MessageError, match="distances.header.frame_id: 'odom'.*'map'"):
+        conversions.require_frame("distances", distances, scenario)
 
 
 @pytest.mark.parametrize(
@@ -173,10 +184,11 @@ def test_distances_that_are_unusable_say_so(state, scenario):
         distances_message(), state, Distances.unknown(copies, ("ground",)), 0.0, fault="it is lost"
     )
     with pytest.raises(MessageError, match="^it is lost$"):
-        conversions.to_observation(transmitted(state), transmitted(message), scenario)
+        conversions.usable_distances(transmitted(message), scenario)
     message.fault = ""
     # Nor are they taken for those of a run without obstacles.
-    seen = conversions.to_observation(transmitted(state), transmitted(message), scenario)
+    distances = conversions.usable_distances(transmitted(message), scenario)
+    seen = conversions.to_observation(transmitted(state), distances, scenario)
     assert "distances.minimum" in find_fault(seen, len(FILE_ORDER))
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from deformable_manipulation.ros.loop_trial import Commands
+from deformable_manipulation.ros.loop_trial import Commands, read_overruns
 
 
 def test_rate_and_share_of_the_states_that_were_answered():
@@ -14,3 +14,14 @@ def test_rate_and_share_of_the_states_that_were_answered():
 def test_one_command_has_no_rate():
     commands = Commands(np.array([1.0]), np.array([0.001]))
     assert np.isnan(commands.rate) and commands.answered(100.0) == 1.0
+
+
+def test_what_nodes_say_of_overruns_is_found_among_the_rest_of_the_log():
+    log = (
+        "\x1b[0m/simulator: Overruns: 1 of 300 cycles.\x1b[0m\n"
+        "/assistants: Overruns: 2 of 7 cycles, 1 states skipped.\n"
+        "/assistants: Waits, zero velocity: no state for 0.3 s.\n"
+        "[leader-3] killing on exit\n"
+        "/assistants: Overruns: 4 of 298 cycles, 3 states skipped.\n"
+    )
+    assert read_overruns(log) == {"simulator": (1, None), "assistants": (4, 3)}

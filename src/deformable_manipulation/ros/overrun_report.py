@@ -1,0 +1,29 @@
+"""Says when a node does not keep up with the states."""
+
+import rospy
+
+from deformable_manipulation.ros import node
+from deformable_manipulation.ros.cycle_counter import CycleCounter
+
+
+def age_of(state):
+    """Age [s] of a state by its stamp."""
+    return (rospy.Time.now() - state.header.stamp).to_sec()
+
+
+class OverrunReport:
+    """Counts answers and overruns of a node: warns, and sums up when the node leaves.
+
+    Args:
+        period: cycle time [s].
+    """
+
+    def __init__(self, period):
+        self.counter = CycleCounter(period)
+        self._warnings = node.Warnings()
+        rospy.on_shutdown(lambda: rospy.loginfo(self.counter.summary))
+
+    def answered(self, state):
+        """A state has just been answered."""
+        if self.counter.count(state, age_of(state)):
+            self._warnings.warn(self.counter.summary)

@@ -1,0 +1,96 @@
+"""How the nodes with controllers answer states."""
+
+import time
+
+import rospy
+
+from deformable_manipulation.ros import node
+from deformable_manipulation.ros.assistant import Assistant
+from deformable_manipulation.ros.conversions import MessageError, to_observation
+from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
+from deformable_manipulation.ros.health import input_report
+from deformable_manipulation.ros.input_watch import find_age_fault
+from deformable_manipulation.ros.overrun_report import OverrunReport, age_of
+
+
+class StateAnswers:
+    """Lets assistants answer states, and counts how well they keep up.
+
+    Reads the node's parameter ``~lockstep``. Leaves the process with a message if the scenario has
+    no assistants of these names.
+
+    Args:
+        scenario: the checked scenario.
+        parameter: of the node, with the names of the assistants, separated by blanks.
+    """
+
+    def __init__(self, scenario, parameter):
+        self._scenario = scenario
+        self._lockstep = rospy.get_param("~lockstep", False)
+        self._overruns = OverrunReport(scenario.cycle_time)
+        agents = rospy.get_param(parameter, "").split() or [""]
+        try:
+            self._assistants = [
+                Assistant(scenario, agent, self._overruns.counter) for agent in agents
+            ]
+        except ValueError as error:
+            node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
+        self._cycles = cycle_monitor(scenario)
+
+    def answer(self, state, distances_of):
+        """Command the velocities that answer a state, then report them.
+
+        Args:
+            state: the ObjectState.
+            distances_of: function without arguments that gives the core's Distances of it; may
+                raise MessageError.
+        """
+        started = time.perf_counter()
+        observation, fault = None, ""
+        try:
+            distances = distances_of()
+            self._require_fresh(state)
+            observation = to_observation(state, distances, self._scenario)
+        except MessageError as error:
+            fault = f"cycle {state.cycle} cannot be used, {error}"
+        decisions = self._decide(state, observation, fault)
+        self._overruns.answered(state)
+        self._send(state, observation, decisions)
+        self._cycles.answered(time.perf_counter() - started, age_of(state))
+
+    def _decide(self, state, observation, fault):
+        return [each.decide(state, observation, fault) for each in self._assistants]
+
+    def _send(self, state, observation, decisions):
+        # Whoever sends lets other threads go first: all commands before all reports.
+        for assistant, decision in zip(self._assistants, decisions):
+            assistant.send(state, decision)
+        for assistant, decision in zip(self._assistants, decisions):
+            assistant.report(state, observation, decision)
+
+    def watch(self, fault, newest_state):
+        """From now on, let assistants stand still while inputs are lost, and say how all fare.
+
+        Args:
+            fault: function without arguments: a clause that says what is lost, or nothing.
+            newest_state: function without arguments: the newest state, or None.
+        """
+
+        def check():
+            lost, state = fault(), newest_state()
+            if lost and state is not None:
+                self._send(state, None, self._decide(state, None, lost))
+
+        reports = {"cycle": self._cycles.report, "inputs": lambda: input_report(fault())}
+        for assistant in self._assistants:
+            reports.update(assistant.reports)
+        publish_diagnostics(reports)
+        if not self._lockstep:  # there everybody waits for everybody
+            node.every(0.5 * self._scenario.controller.timeout, check)
+
+    def _require_fresh(self, state):
+        if self._lockstep:  # the state waits for the answer, however long that takes
+            return
+        fault = find_age_fault(age_of(state), self._scenario.controller.timeout)
+        if fault:
+            raise MessageError(fault)
