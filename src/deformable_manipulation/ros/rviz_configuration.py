@@ -6,12 +6,14 @@ import math
 import numpy as np
 import yaml
 
+from deformable_manipulation.scenario.spec import MeshObstacle
+
 _WINDOW = (1280, 800)  # pixels
-_ASPECT = _WINDOW[0] / _WINDOW[1]
 _FAR = 40.0  # m, from which parallel lines stay parallel
 _CELL = 0.5  # m, of the grid
 _BEHIND = 0.3  # m, of the grid behind a flat scene: behind the obstacles as they are drawn
 _FLAT = 0.1  # of the scene's width
+_SAG = 0.6  # m, what the object hangs below the agents, about
 _PERSPECTIVE = 0.785  # rad, field of view
 
 # As RViz saves it; without it the panels would not stay hidden.
@@ -117,18 +119,23 @@ _TOOLS = [
 
 
 def _scene(scenario):
-    """Corners (3,) [m] of the box of all places where agents are to be, and moving obstacles, down
-    to the ground."""
+    """Corners (3,) [m] of the box of all places where agents and moving obstacles are to be, with
+    what hangs below them and the way that assistants may go up."""
     starts = np.array([agent.start for agent in scenario.agents])
     path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
-    places = [starts + shift for shift in path]
-    for obstacle in scenario.obstacles:
-        if obstacle.motion is not None:
-            shifts = [way.position for way in getattr(obstacle.motion, "waypoints", ())]
-            places.append(obstacle.translation + np.array(shifts or [(0.0, 0.0, 0.0)]))
-    low, high = np.concatenate(places).min(axis=0), np.concatenate(places).max(axis=0)
-    low[2] = min(low[2], 0.0)
+    agents = np.concatenate([starts + shift for shift in path])
+    obstacles = [_places_of(each) for each in scenario.obstacles if isinstance(each, MeshObstacle)]
+    places = np.concatenate([agents, agents - (0.0, 0.0, _SAG), *obstacles])
+    low, high = places.min(axis=0), places.max(axis=0)
+    if any(obstacle.motion is not None for obstacle in scenario.obstacles):
+        high[2] += _SAG
     return low, high
+
+
+def _places_of(obstacle):
+    """Where the origin of an obstacle is to be (N, 3) [m]."""
+    shifts = [waypoint.position for waypoint in getattr(obstacle.motion, "waypoints", ())]
+    return obstacle.translation + np.array(shifts or [(0.0, 0.0, 0.0)])
 
 
 def _grid(low, high, flat):
@@ -152,15 +159,15 @@ def _grid(low, high, flat):
 
 def _perspective(low, high, flat):
     if flat:
-        width = max(high[1] - low[1], _ASPECT * (high[2] - low[2]))
-        distance, pitch, yaw = 1.23 * width, 0.3, 6.0
+        distance = max(1.23 * (high[1] - low[1]), 1.55 * (high[2] - low[2]))
+        pitch, yaw = 0.3, 6.0
     else:
         distance, pitch, yaw = 1.05 * math.hypot(*(high - low)), 0.35, 5.6
     return _orbit("Perspective", 0.5 * (low + high), distance, pitch, yaw, _PERSPECTIVE)
 
 
 def _side_view(low, high):
-    height = 0.9 * max(high[1] - low[1], _ASPECT * (high[2] - low[2]))
+    height = max(0.9 * (high[1] - low[1]), 1.35 * (high[2] - low[2]))
     field = 2.0 * math.atan(0.5 * height / _FAR)
     return _orbit("YZ", 0.5 * (low + high), _FAR, 0.0, 0.0, field)
 
