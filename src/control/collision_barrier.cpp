@@ -22,11 +22,20 @@ double looseness(double beyond_nearest, double band) {
   return x * x * (3.0 - 2.0 * x);
 }
 
+double sumOfSquares(const Features& features, int feature, const std::vector<int>& agents) {
+  double sum = 0.0;
+  for (const int agent : agents) {
+    sum += features.gradient(feature, agent).squaredNorm() + NEGLIGIBLE;
+  }
+  return sum;
+}
+
 }  // namespace
 
-CollisionBarrier::CollisionBarrier(int agent, std::vector<int> assistants, const CollisionParameters& parameters,
-                                   double max_velocity, const Formulation& formulation)
-    : agent_(agent),
+CollisionBarrier::CollisionBarrier(std::vector<int> commanded, std::vector<int> assistants,
+                                   const CollisionParameters& parameters, double max_velocity,
+                                   const Formulation& formulation)
+    : commanded_(std::move(commanded)),
       assistants_(std::move(assistants)),
       parameters_(parameters),
       max_velocity_(max_velocity),
@@ -36,15 +45,22 @@ void CollisionBarrier::addRows(const Features& features, const Situation& situat
   const Vector3 leader_velocity = leaderVelocity(situation);
   const double margin = parameters_.margin + parameters_.speed_margin * leader_velocity.norm();
   for (int m = 0; m < features.size(); ++m) {
-    const Vector3& g = features.gradient(m, agent_);
+    Vector3 g = Vector3::Zero();  // of all commanded ones together
+    double reach = 0.0;           // [m/s] that they can move the feature by
+    for (const int agent : commanded_) {
+      g += features.gradient(m, agent);
+      reach += max_velocity_ * features.gradient(m, agent).lpNorm<1>();
+    }
     const double h = value(predictedDistance(features, m, situation)) - margin;
     const double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m));
-    const double own_share = share(features, m);
+    const double share = formulation_.shares ? shareOf(features, m) : 1.0;
     const double loose = looseness(features.distance[m] - features.distance[0], parameters_.band);
-    const double unreachable = -max_velocity_ * g.lpNorm<1>();  // a bound that every velocity satisfies
     const auto add = [&](Tier tier, const PiecewiseLinearClassK& alpha) {
-      const double bound = g.dot(leader_velocity) - own_share * (carried + alpha(h));
-      rows.add(tier, g.data(), bound - loose * std::max(0.0, bound - unreachable));
+      const double bound = g.dot(leader_velocity) - share * (carried + alpha(h));
+      auto row = rows.add(tier, bound - loose * std::max(0.0, bound + reach));  // every velocity satisfies -reach
+      for (std::size_t i = 0; i < commanded_.size(); ++i) {
+        row.segment<3>(3 * i) = features.gradient(m, commanded_[i]);
+      }
     };
     add(Tier::COLLISION, parameters_.alpha);
     if (formulation_.anticipation) {
@@ -71,15 +87,9 @@ double CollisionBarrier::predictedDistance(const Features& features, int feature
   return features.distance[feature] + situation.delay * rate;
 }
 
-double CollisionBarrier::share(const Features& features, int feature) const {
-  if (!formulation_.shares) {
-    return 1.0;
-  }
-  double sum = 0.0;
-  for (const int assistant : assistants_) {
-    sum += features.gradient(feature, assistant).squaredNorm() + NEGLIGIBLE;
-  }
-  return (features.gradient(feature, agent_).squaredNorm() + NEGLIGIBLE) / sum;
+//! The part of a feature's demand that the commanded assistants take.
+double CollisionBarrier::shareOf(const Features& features, int feature) const {
+  return sumOfSquares(features, feature, commanded_) / sumOfSquares(features, feature, assistants_);
 }
 
 }  // namespace control

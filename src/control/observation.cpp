@@ -35,9 +35,10 @@ std::string notFinite(const ObservationView& o) {
   const long vectors = 3L * d.features;
   const long coordinates = 3L * o.copies * o.points;
   for (const Field& field :
-       {Field{"positions", o.positions, 3L * o.agents}, Field{"points", o.coordinates, coordinates},
-        Field{"displacements", o.displacements, 3L * o.copies}, Field{"distances.distance", d.distance, d.features},
-        Field{"distances.normal", d.normal, vectors}, Field{"distances.weights", d.weights, vectors},
+       {Field{"positions", o.positions, 3L * o.agents}, Field{"velocities", o.velocities, 3L * o.agents},
+        Field{"points", o.coordinates, coordinates}, Field{"displacements", o.displacements, 3L * o.copies},
+        Field{"distances.distance", d.distance, d.features}, Field{"distances.normal", d.normal, vectors},
+        Field{"distances.weights", d.weights, vectors},
         Field{"distances.obstacle_velocity", d.obstacle_velocity, vectors},
         Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
     if (field.values != nullptr && !areFinite(field.values, field.count)) {

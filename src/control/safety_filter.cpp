@@ -18,9 +18,6 @@ constexpr double NEGLIGIBLE_GRADIENT = 1e-3;
 // the first limit in the priority to the last.
 constexpr std::array<double, LIMIT_TIERS> PENALTIES = {1e6, 1e4, 1e2};
 
-// Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
-constexpr double ANTICIPATION_WEIGHT = 10.0;
-
 std::array<double, TIERS> penaltiesOf(const Priority& priority) {
   std::array<double, TIERS> penalties = {};
   for (int place = 0; place < LIMIT_TIERS; ++place) {
@@ -63,6 +60,7 @@ const Filtered& SafetyFilter::filter(const Eigen::VectorXd& nominal, const Const
     throw std::invalid_argument("nominal, lower, upper and rows must have as many components as there are weights");
   }
   result_.rows = rows.size();
+  result_.rows_act = false;
   result_.slack.fill(0.0);
   result_.status = decide({nominal, rows, lower, upper});
   if (result_.status == Status::FAILED) {
@@ -86,7 +84,8 @@ Status SafetyFilter::decide(const Given& given) {
   // With a diagonal cost, clipping is the optimum over the bounds alone, and so the optimum altogether if it
   // satisfies the rows.
   result_.velocity = given.nominal.cwiseMax(given.lower).cwiseMin(given.upper);
-  if (!holds(given)) {
+  result_.rows_act = !holds(given);
+  if (result_.rows_act) {
     if (!solve(given)) {
       return Status::FAILED;
     }
@@ -121,7 +120,7 @@ void SafetyFilter::formulate(const Given& given) {
     const double steepest = (squares_.array() * (given.nominal.cwiseAbs() + reach).array()).maxCoeff();
     for (int tier = 0; tier < TIERS; ++tier) {
       const bool is_limit = penalties_[tier] > 0.0;
-      program_.hessian[n + tier] = is_limit ? 1.0 : ANTICIPATION_WEIGHT;
+      program_.hessian[n + tier] = is_limit ? 1.0 : anticipation_;
       program_.linear[n + tier] = penalties_[tier] * (steepest > 0.0 ? steepest : 1.0);
       program_.addRow(0.0)[n + tier] = 1.0;
     }

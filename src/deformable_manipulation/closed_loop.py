@@ -1,12 +1,15 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
+from typing import Dict
 
-from deformable_manipulation.control.controller import AssistantController
+from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
+from deformable_manipulation.imperfect import ImperfectKnowledge, true_scenario
 from deformable_manipulation.leader import LeaderController
-from deformable_manipulation.obstacle_motion import MovingObstacles
+from deformable_manipulation.observer import Observer
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation import make_simulation
@@ -27,23 +30,25 @@ class ClosedLoop:
 
     def __init__(self, scenario: Scenario, safety: bool = True):
         self._scenario = scenario
-        # Without barriers nobody asks for gradients.
-        self._simulation = make_simulation(scenario, copies=safety)
+        perfect = scenario.knowledge.perfect
+        # Without barriers nobody asks for gradients; with imperfect knowledge those of a model.
+        copies = safety and perfect
+        self._simulation = make_simulation(true_scenario(scenario), copies)
         self._distance = make_minimum_distance(scenario)
-        self._obstacles = MovingObstacles(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
-        self._controllers = {
-            index: AssistantController(scenario, scenario.agents[index].name, safety)
-            for index in scenario.assistants
-        }
-        self._points = self._simulation.points()
+        self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
+        self._observer = Observer(scenario, self._simulation, self._distance, perfect)
+        self._knowledge = None
+        if not perfect:
+            self._knowledge = ImperfectKnowledge(
+                scenario, self._controllers, make_minimum_distance(scenario)
+            )
         self._stretch = StretchGauge(scenario.object)
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
-        self._obstacles.move(self._distance, self._simulation.time)
-        return float(self._distance.compute(self._simulation.points()[:1]).minimum[0])
+        return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
@@ -66,22 +71,21 @@ class ClosedLoop:
         """Answer the present state and advance to the next one."""
         simulation = self._simulation
         started = time.perf_counter()
-        observation = self._observe()
+        observation = self._observer.observe()
         measured = time.perf_counter()
-        decisions = {
-            index: controller.update(observation) for index, controller in self._controllers.items()
-        }
+        decisions = self._decide(observation)
         leader = self._leader_index
         leader_velocity = self._leader.update(observation.time, observation.positions[leader])
         decided = time.perf_counter()
         velocities = simulation.velocities()
-        points = self._points[0].copy()
+        points = observation.points[0].copy()
 
         advancing = time.perf_counter()
         simulation.advance()
         simulation.set_command(leader, leader_velocity)
-        for index, decision in decisions.items():
-            simulation.set_command(index, decision.command)
+        for index in self._scenario.assistants:
+            name = self._scenario.agents[index].name
+            simulation.set_command(index, decisions[name].command)
         advanced = time.perf_counter()
 
         return CycleRecord(
@@ -92,10 +96,8 @@ class ClosedLoop:
             positions=observation.positions,
             velocities=velocities,
             points=points,
-            obstacles=self._obstacles.poses(),
-            decisions={
-                self._scenario.agents[index].name: decision for index, decision in decisions.items()
-            },
+            obstacles=self._observer.obstacle_poses(),
+            decisions=decisions,
             timings=CycleTimings(
                 simulation=advanced - advancing,
                 distance=measured - started,
@@ -103,28 +105,14 @@ class ClosedLoop:
             ),
         )
 
-    def _observe(self) -> Observation:
-        simulation = self._simulation
-        points = simulation.points(out=self._points)
-        self._obstacles.move(self._distance, simulation.time)
-        return Observation(
-            time=simulation.time,
-            cycle=simulation.cycle,
-            positions=simulation.positions(),
-            points=points,
-            displaced_agents=simulation.displaced_agents(),
-            displacements=simulation.displacements(),
-            ready=simulation.ready(),
-            distances=self._distance.compute(points),
-            sensitivities=self._sensitivities(),
-        )
-
-    def _sensitivities(self):
-        """Exact response of the object, where it is wanted and known; else None."""
-        if self._scenario.controller.jacobian != "equilibrium":
-            return None
-        response = self._simulation.response()
-        return None if isinstance(response, str) else response
+    def _decide(self, observation: Observation) -> Dict[str, Decision]:
+        """The decisions of all assistants by their names."""
+        if self._knowledge is not None:
+            return self._knowledge.decide(observation)
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(observation))
+        return decisions
 
 
 def make_minimum_distance(scenario: Scenario):

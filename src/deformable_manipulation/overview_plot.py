@@ -1,5 +1,6 @@
 """One figure for a whole run: where everything was, and how near to the limits."""
 
+from itertools import cycle
 from typing import List, Optional, Sequence
 
 import numpy as np
@@ -7,12 +8,19 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from deformable_manipulation.plotting import COLUMN_WIDTH, DISTANCE_RANGE, STYLE, title_of
+from deformable_manipulation.plotting import (
+    BLACK,
+    COLUMN_WIDTH,
+    DISTANCE_RANGE,
+    STYLE,
+    legend_above,
+    title_of,
+)
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunData
 from deformable_manipulation.snapshot_plot import COLOURS, SnapshotPlot
 
-_VIEW_WIDTH, _PANEL_HEIGHT = 2.9, 0.9  # in
+_VIEW_WIDTH, _PANEL_HEIGHT = 2.9, 1.0  # in
 _VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
 _AROUND = 0.6  # in, titles and labels
 _STYLES = ("-", "--", "-.", ":")
@@ -45,19 +53,17 @@ def plot_overview(
         _plot_errors(error, run)
         _plot_margins(margin, run)
         for axis in (distance, error, margin):
-            axis.set_xlim(float(run.time[0]), float(run.time[-1]) or 1.0)
-            for time, colour in zip(chosen, COLOURS):
-                axis.axvline(time, color=colour, linewidth=0.7, zorder=0)
+            axis.set_xlim(*run.time_range)
+            axis.tick_params(labelbottom=axis is margin)
+            for time, colour in zip(chosen, cycle(COLOURS)):
+                axis.axvline(time, color=colour, linewidth=0.8, zorder=0)
         margin.set_xlabel("time [s]")
-        figure.suptitle(title_of(run), fontsize=7)
-        view.legend(
-            handles=[
-                Line2D([], [], color=colour, label=f"{time:g} s")
-                for time, colour in zip(chosen, COLOURS)
-            ],
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncols=len(chosen),
+        figure.align_ylabels((view, distance, error, margin))
+        figure.suptitle(title_of(run), fontsize=STYLE["font.size"])
+        legend_above(
+            view,
+            [Line2D([], [], color=colour) for _, colour in zip(chosen, cycle(COLOURS))],
+            [f"{time:g} s" for time in chosen],
         )
     return figure
 
@@ -85,7 +91,7 @@ def _plot_distance(axis, run: RunData) -> None:
     axis.plot(run.time, distance, color=COLOURS[0])
     axis.set_ylabel("distance [m]")
     if run.offset is not None:
-        axis.axhline(run.offset, color="black", linestyle="--", linewidth=0.8)
+        axis.axhline(run.offset, color=BLACK, linestyle="--", linewidth=0.8)
         top = DISTANCE_RANGE * run.offset
         known = np.isfinite(distance).any()
         if known and max(0.0, np.nanmin(distance)) < top < np.nanmax(distance):
@@ -100,11 +106,11 @@ def _plot_errors(axis, run: RunData) -> None:
     axis.set_ylabel("error [m]")
     axis.set_ylim(bottom=0.0)
     if len(run.assistants) > 1:
-        axis.legend(ncols=len(run.assistants), loc="lower right", bbox_to_anchor=(1.0, 1.0))
+        legend_above(axis, *axis.get_legend_handles_labels())
 
 
 def _plot_margins(axis, run: RunData) -> None:
-    axis.axhline(0.0, color="black", linestyle="--", linewidth=0.8)
+    axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
     for series, style in zip(run.assistants, _STYLES * len(run.assistants)):
         axis.plot(series.time, series.h_overstretch, style, color=COLOURS[2])
     axis.set_ylabel("overstretch\nmargin [m]")

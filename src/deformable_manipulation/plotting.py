@@ -1,9 +1,10 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
-from typing import List, Optional, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -14,8 +15,9 @@ from deformable_manipulation.recording.run_data import AssistantSeries, RunData
 from deformable_manipulation.recording.timeseries import AXES
 
 COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
-PANEL_HEIGHT = 1.0  # in, with its legend
+PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
+_LEGEND_LINE, _LEGEND_HANDLE = 58, 5  # letters, that fit above a panel and in place of a handle
 RESOLUTION = 300  # dots per inch of pixel formats
 MOVING = 1e-4  # m/s, velocity components that stay below are left out
 # Farther than this many offsets from the obstacle, distances say nothing about safety, and showing
@@ -39,19 +41,21 @@ SHADES = (
     ((Status.WAITING, Status.DISABLED), "stopped", "#D9D9D9", 0.5),
     ((Status.UNSAFE_FILTER_OFF,), "filter off", "#F0E4EE", 0.0),
 )
+# Sizes in points, at COLUMN_WIDTH; papers ask for 8 or so.
 STYLE = {
-    "font.size": 7,
-    "axes.labelsize": 7,
+    "font.size": 8,
+    "axes.labelsize": 8,
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
     "axes.grid": True,
     "grid.linewidth": 0.4,
     "grid.color": "#CCCCCC",
-    "xtick.labelsize": 6.5,
-    "ytick.labelsize": 6.5,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
-    "legend.fontsize": 6.5,
+    "legend.fontsize": 7.5,
+    "legend.title_fontsize": 8,
     "legend.frameon": False,
     "legend.handlelength": 1.6,
     "legend.handletextpad": 0.4,
@@ -110,7 +114,7 @@ def _finish_figure(
 ) -> None:
     """What the panels share: time axis, shading, title and legend of the figure."""
     axes[-1].set_xlabel("time [s]")
-    axes[-1].set_xlim(*_time_range(run.time))
+    axes[-1].set_xlim(*run.time_range)
     figure.align_ylabels(axes)
     handles = [
         Patch(facecolor=colour, label=label)
@@ -129,8 +133,9 @@ def _finish_figure(
 
 
 def title_of(run: RunData, what: str = "") -> str:
-    """Title of a figure of a run, which tells where its shapes mean nothing."""
-    title = f"{run.name}: {what}" if what else run.name
+    """Title of a figure: the scenario, and a warning where the run's shapes mean nothing."""
+    name = run.scenario or run.name
+    title = f"{name}: {what}" if what else name
     if run.max_stretch is None or run.max_stretch <= run.valid_stretch:
         return title
     return f"{title}\nNOT VALID: object stretched by up to {100.0 * run.max_stretch:.1f} %"
@@ -193,21 +198,16 @@ def _mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: flo
     return True
 
 
-def _legend_above(axis: Axes) -> None:
-    """A legend in one line above a panel, where it hides no data; none without labels."""
-    handles, labels = axis.get_legend_handles_labels()
+def legend_above(axis: Axes, handles: Sequence[Artist], labels: Sequence[str]) -> None:
+    """A legend above a panel, where it hides no data: in one line, or more where names are long."""
     if handles:
-        axis.legend(
-            handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(handles)
-        )
+        letters = max(map(len, labels)) + _LEGEND_HANDLE
+        columns = min(len(handles), max(1, _LEGEND_LINE // letters))
+        axis.legend(handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns)
 
 
-def _time_range(time: np.ndarray) -> Tuple[float, float]:
-    """From the first sample to the end of the last one's cycle."""
-    start, end = float(time[0]), float(time[-1])
-    if end == start:
-        return start, start + 1.0
-    return start, round(end + (end - start) / (len(time) - 1), 6)
+def _legend_above(axis: Axes) -> None:
+    legend_above(axis, *axis.get_legend_handles_labels())
 
 
 def _with_lowest(name: str, values: np.ndarray) -> str:
@@ -215,8 +215,9 @@ def _with_lowest(name: str, values: np.ndarray) -> str:
 
 
 def _millimetres(metres: float) -> str:
-    """A length in mm, rounded to 0.1 mm without a useless zero."""
-    return f"{round(1e3 * metres, 1):g} mm"
+    """A length in mm with as many digits as matter: 0.1 mm below 100 mm, no useless zero."""
+    length = 1e3 * metres
+    return f"{round(length, 1 if abs(length) < 100.0 else None):g} mm"
 
 
 def _shade(

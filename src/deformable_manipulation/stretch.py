@@ -1,5 +1,6 @@
 """Whether an object is as large as its material makes it, or was torn beyond what is simulated."""
 
+import math
 from functools import singledispatch
 from typing import Optional, Tuple
 
@@ -24,7 +25,8 @@ class StretchGauge:
     """
 
     def __init__(self, spec):
-        edges, self._lengths = _edges(spec)
+        edges, lengths = _edges(spec)
+        self._squared_lengths = lengths**2
         self._first, self._second = np.ascontiguousarray(edges.T)
 
     def measure(self, points: np.ndarray) -> float:
@@ -32,9 +34,11 @@ class StretchGauge:
 
         :param points: (P, 3) geometry points [m].
         """
-        edges = points[self._second] - points[self._first]
-        changes = np.sqrt(np.einsum("ei,ei->e", edges, edges)) / self._lengths - 1.0
-        return float(changes[np.argmax(np.abs(changes))])
+        edges = points.take(self._second, axis=0) - points.take(self._first, axis=0)
+        ratios = np.einsum("ei,ei->e", edges, edges) / self._squared_lengths
+        longest = math.sqrt(ratios.max()) - 1.0
+        shortest = math.sqrt(ratios.min()) - 1.0
+        return longest if longest >= -shortest else shortest
 
 
 @singledispatch

@@ -1,7 +1,9 @@
 """Reading files that a user names, whatever the name may turn out to stand for."""
 
+import contextlib
 import os
 import stat
+from typing import IO, Iterator
 
 LARGEST_FILE = 16_000_000  # bytes, some hundred times what any file read here needs
 
@@ -27,24 +29,36 @@ def read_text(path, largest: int = LARGEST_FILE) -> str:
 
 def read_bytes(path, largest: int) -> bytes:
     """The content of a regular file. Raises TextFileError as read_text does."""
-    try:
-        data = _read_regular(path, largest + 1)
-    except OSError as error:
-        raise TextFileError("cannot be read: {}".format(error.strerror or error)) from error
-    except ValueError as error:  # a path with a null character
-        raise TextFileError("cannot be read: {}".format(error)) from error
+    data = read_start(path, largest + 1)
     if len(data) > largest:
         raise TextFileError("has more than {} bytes; is it the right file?".format(largest))
     return data
 
 
-def _read_regular(path, count: int) -> bytes:
-    """Up to ``count`` bytes of a regular file."""
+@contextlib.contextmanager
+def open_regular(path) -> Iterator[IO[bytes]]:
+    """Open a regular file to read its bytes, for the time of a with statement.
+
+    Raises OSError; TextFileError: it is a device, a pipe or the like.
+    """
     # Opening a pipe would wait for somebody to write into it.
     with open(str(path), "rb", opener=_open_without_waiting) as file:
         if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
             raise TextFileError("is no regular file, but a device, a pipe or the like")
-        return file.read(count)
+        yield file
+
+
+def read_start(path, count: int) -> bytes:
+    """The first ``count`` bytes of a regular file. Raises TextFileError as read_text does."""
+    try:
+        with open_regular(path) as file:
+            return file.read(count)
+    except TextFileError:
+        raise
+    except OSError as error:
+        raise TextFileError("cannot be read: {}".format(error.strerror or error)) from error
+    except ValueError as error:  # a path with a null character
+        raise TextFileError("cannot be read: {}".format(error)) from error
 
 
 def _open_without_waiting(path: str, flags: int) -> int:

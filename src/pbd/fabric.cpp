@@ -9,6 +9,7 @@
 #include "fabric_kernel.h"
 #include "fabric_layout.h"
 #include "fabric_mesh.h"
+#include "fabric_response.h"
 #include "fabric_weights.h"
 #include "reference_motion.h"
 #include "surface_distance.h"
@@ -68,6 +69,7 @@ struct Fabric::State {
   Eigen::MatrixXd weights;                              // [N x holds] how each vertex goes with the holds
   std::vector<std::vector<double>> distances_of_holds;  // [holds x N] m, unless straight
   std::vector<double> decay, carried;
+  std::vector<double> shape;           // [N x 3] m, for the response
   std::vector<HeldVertex> held;        // [kSubstepsAtOnce x groups x holds]
   int pending = 0;                     // substeps that are noted in it and still to be done
   std::vector<AlignedArray> recorded;  // [groups] of the last substep
@@ -161,6 +163,7 @@ void Fabric::holdsChanged() {
     s.weights = holdWeights(parameters_.vertices, s.edges, held);
   }
   s.constraints_for = 0.0;
+  response_.reset();
   resizeHeld();
 }
 
@@ -308,6 +311,22 @@ Wrench Fabric::wrench(int particle) const {
   wrench.force = state_->masses[particle] * parameters_.gravity +
                  state_->constraints.force(particle, state_->recorded.front().data());
   return wrench;
+}
+
+ResponseStatus Fabric::response(double* to) {
+  State& s = *state_;
+  if (holds().empty()) {
+    return ResponseStatus::NOT_HELD;
+  }
+  if (s.constraints_for == 0.0) {
+    return ResponseStatus::NOT_CONVERGED;
+  }
+  if (!response_) {
+    response_ = std::make_unique<FabricResponse>(particleCount(), s.constraints, holds());
+    s.shape.resize(3 * static_cast<std::size_t>(particleCount()));
+  }
+  positions(0, s.shape.data());
+  return response_->compute(s.constraints, s.shape.data(), to);
 }
 
 void Fabric::points(double* to) const {

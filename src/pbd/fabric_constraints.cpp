@@ -32,14 +32,6 @@ constexpr int kLookAhead = 96;
 
 int place(int vertex) { return 3 * kLanes * vertex; }
 
-int vertexAt(int place) { return place / (3 * kLanes); }
-
-std::array<double, 4> weightsOf(const HingeConstraint& hinge) {
-  const double end = hinge.weight_of_end;
-  const double opposite = hinge.weight_of_opposite;
-  return {-(end + 1.0 + opposite), end, 1.0, opposite};
-}
-
 //! Whether a hinge moves an end of another one's edge.
 bool touches(const HingeConstraint& hinge, const HingeConstraint& other) {
   return std::find_first_of(hinge.at, hinge.at + 4, other.at, other.at + 2) != hinge.at + 4;
@@ -60,6 +52,14 @@ double leastCompliance(double damping) {
 }
 
 }  // namespace
+
+int vertexAt(int place) { return place / (3 * kLanes); }
+
+std::array<double, 4> weightsOf(const HingeConstraint& hinge) {
+  const double end = hinge.weight_of_end;
+  const double opposite = hinge.weight_of_opposite;
+  return {-(end + 1.0 + opposite), end, 1.0, opposite};
+}
 
 std::vector<int> independentOrder(const std::vector<std::vector<int>>& vertices_of_items, int vertices) {
   std::list<int> waiting;
@@ -133,6 +133,8 @@ FabricConstraints::FabricConstraints(const std::vector<Vector3>& vertices, const
   unfolded_.resize(vertices.size());
   spring_.resize(rest_.size());
   fold_spring_.resize(hinges_.size());
+  elastic_.resize(rest_.size());
+  elastic_fold_.resize(hinges_.size());
 }
 
 void FabricConstraints::update(const std::vector<double>& inverse_mass, double stretching_compliance,
@@ -152,6 +154,7 @@ void FabricConstraints::update(const std::vector<double>& inverse_mass, double s
     stretch.gain[0] = s * inverse_mass[start];
     stretch.gain[1] = -s * inverse_mass[end];
     spring_[i] = s / (h * h);
+    elastic_[i] = stiffness(0.0, compliance * h * h);
   };
   for (std::size_t i = 0; i < hinges_.size(); ++i) {
     HingeConstraint& hinge = hinges_[i];
@@ -180,6 +183,7 @@ void FabricConstraints::updateFolds(const std::vector<double>& inverse_mass, dou
       unfolded_[vertex] = std::max(unfolded_[vertex], s * response);
     }
     fold_spring_[i] = s / (h * h);
+    elastic_fold_[i] = stiffness(0.0, bending_compliance * rest_[i].fold_area);
   }
 }
 

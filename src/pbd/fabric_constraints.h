@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "deformable_manipulation/pbd/types.h"
@@ -22,6 +23,12 @@ class FabricConstraints {
 
   const std::vector<HingeConstraint>& hinges() const { return hinges_; }
   const std::vector<BoundaryConstraint>& boundaries() const { return boundaries_; }
+
+  //! [hinges and then boundaries] N/m, force by elongation of each edge in the state of rest.
+  const std::vector<double>& springs() const { return elastic_; }
+
+  //! [hinges] N/m, force by fold.
+  const std::vector<double>& folds() const { return elastic_fold_; }
 
   //! Fills in the unstretched lengths of the edges, [edges x lane].
   void restLengths(AlignedArray& to) const;
@@ -46,10 +53,17 @@ class FabricConstraints {
 
   std::vector<HingeConstraint> hinges_;
   std::vector<BoundaryConstraint> boundaries_;
-  std::vector<Rest> rest_;                    // of the hinges, then the boundary edges
-  std::vector<double> unfolded_;              // [vertices] largest part of a fold that a substep takes away
-  std::vector<double> spring_, fold_spring_;  // N/m, force by excess of length and by fold; as rest_
+  std::vector<Rest> rest_;                      // of the hinges, then the boundary edges
+  std::vector<double> unfolded_;                // [vertices] largest part of a fold that a substep takes away
+  std::vector<double> spring_, fold_spring_;    // N/m, force by excess of length and by fold; as rest_
+  std::vector<double> elastic_, elastic_fold_;  // N/m, of the edges and folds in the state of rest; as rest_
 };
+
+//! The vertex at a place in the arrays of lanes.
+int vertexAt(int place);
+
+//! Weights of the four vertices of a hinge, whose sum is the fold.
+std::array<double, 4> weightsOf(const HingeConstraint& hinge);
 
 //! An order in which items that touch a common vertex are several places apart, as near to the order given as that
 //! allows: their solution can overlap in the processor.

@@ -7,6 +7,7 @@
 
 #include "deformable_manipulation/control/class_k.h"
 #include "deformable_manipulation/control/constraint_rows.h"
+#include "deformable_manipulation/control/position_filter.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
 namespace py = pybind11;
@@ -56,6 +57,47 @@ void bindEstimator(py::module_& module) {
            "RuntimeError where none is.");
 }
 
+//! A filter of positions of any shape.
+struct ShapedFilter {
+  PositionFilter filter;
+  std::vector<py::ssize_t> shape;
+
+  bool update(double time, const Numbers& position) {
+    const bool accepted = filter.update(time, Eigen::Map<const Eigen::VectorXd>(position.data(), position.size()));
+    if (accepted) {
+      shape.assign(position.shape(), position.shape() + position.ndim());
+    }
+    return accepted;
+  }
+
+  Numbers shaped(const Eigen::VectorXd& values) const {
+    if (!filter.hasPosition()) {
+      throw std::runtime_error("no position known yet: call update first");
+    }
+    return Numbers(shape, values.data());
+  }
+};
+
+void bindFilter(py::module_& module) {
+  py::class_<ShapedFilter>(module, "PositionFilter",
+                           "Positions, of any shape, and velocities from noisy, delayed measurements.\n\n"
+                           "time_constant [s] of its fading memory; 0 passes measurements and differences on. Raises\n"
+                           "ValueError.")
+      .def(py::init([](double time_constant) {
+             return ShapedFilter{PositionFilter(time_constant), {}};
+           }),
+           py::arg("time_constant"))
+      .def("update", &ShapedFilter::update, py::arg("time"), py::arg("position"),
+           "Takes in positions [m] measured at a time [s]; whether they were accepted: finite, and newer than all\n"
+           "before.")
+      .def(
+          "position", [](const ShapedFilter& f, double time) { return f.shaped(f.filter.position(time)); },
+          py::arg("time"), "Positions [m] at a time, at constant velocity. Raises RuntimeError where none is known.")
+      .def(
+          "velocity", [](const ShapedFilter& f) { return f.shaped(f.filter.velocity()); },
+          "[m/s] at the newest measurements. Raises RuntimeError where none is known.");
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_control, module) {
@@ -71,6 +113,7 @@ PYBIND11_MODULE(_control, module) {
       .def(py::init<double, double>(), py::arg("above"), py::arg("below"))
       .def("__call__", &PiecewiseLinearClassK::operator(), py::arg("h"), "alpha(h) [unit of h per second].");
   bindEstimator(module);
+  bindFilter(module);
   bindQuadraticProgram(module);
   bindController(module);
   bindGradients(module);

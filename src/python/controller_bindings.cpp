@@ -6,7 +6,7 @@
 #include <string>
 
 #include "control_bindings.h"
-#include "deformable_manipulation/control/assistant_controller.h"
+#include "deformable_manipulation/control/team_controller.h"
 #include "observation_reader.h"
 #include "solver_from_python.h"
 
@@ -20,45 +20,59 @@ PiecewiseLinearClassK toClassK(const Slopes& slopes) { return {slopes.first, slo
 
 //! A controller with what it needs to read observations.
 struct BoundController {
-  AssistantController controller;
+  TeamController controller;
   int agents;
   ObservationReader reader;
 
   explicit BoundController(const ControllerParameters& parameters)
-      : controller(parameters), agents(static_cast<int>(parameters.overstretch.limits.size())) {}
+      : controller(parameters), agents(static_cast<int>(parameters.overstretch.limits.rows())) {}
 };
 
 py::array_t<double> toArray(const Vector3& vector) { return py::array_t<double>(3, vector.data()); }
 
-//! The status as a number, the fields of control.decision.Decision from `command` to `rows`, the slacks, the time of
-//! the solver.
+//! Whether copies are missing, the status as a number, the fields of control.decision.Decision from `command` to
+//! `rows`, the slacks, the time of the solver.
 py::tuple toTuple(const Decision& d) {
   const py::tuple fields =
       py::make_tuple(toArray(d.command), toArray(d.nominal), toArray(d.position), toArray(d.target),
                      toArray(d.target - d.position), d.distance, d.h_collision, d.h_overstretch, d.h_proximity,
                      toArray(d.jacobian), d.exact_jacobian, d.leader_drift, d.rows);
   const py::tuple slacks = py::make_tuple(d.slack[0], d.slack[1], d.slack[2]);
-  return py::make_tuple(static_cast<int>(d.status), fields, slacks, d.solve_time);
+  return py::make_tuple(d.lacks_copies, static_cast<int>(d.status), fields, slacks, d.solve_time);
+}
+
+py::list toList(const std::vector<Decision>& decisions) {
+  py::list list;
+  for (const Decision& decision : decisions) {
+    list.append(toTuple(decision));
+  }
+  return list;
+}
+
+int checked(const BoundController& bound, int member) {
+  if (member < 0 || member >= bound.controller.size()) {
+    throw py::index_error("no commanded assistant has the number " + std::to_string(member));
+  }
+  return member;
 }
 
 py::object update(BoundController& bound, const py::object& observation) {
   const std::string fault = bound.reader.read(observation, bound.agents);
   if (!fault.empty()) {
-    return py::make_tuple(fault, false, toTuple(bound.controller.wait()));
+    return py::make_tuple(fault, toList(bound.controller.wait()));
   }
   if (bound.controller.isAnswered(bound.reader.view().time)) {
     return py::none();
   }
-  const Decision& decision = bound.controller.update(bound.reader.view());
-  return py::make_tuple("", decision.lacks_copies, toTuple(decision));
+  return py::make_tuple("", toList(bound.controller.update(bound.reader.view())));
 }
 
-void takeReference(BoundController& bound, const py::object& observation) {
+void takeReference(BoundController& bound, int member, const py::object& observation) {
   const std::string fault = bound.reader.read(observation, bound.agents);
   if (!fault.empty()) {
     throw py::value_error(fault);
   }
-  bound.controller.takeReference(bound.reader.view());
+  bound.controller.takeReference(checked(bound, member), bound.reader.view());
 }
 
 //! Reads a parameter by its name.
@@ -88,15 +102,16 @@ CollisionParameters toCollision(const py::dict& given) {
 
 ControllerParameters toParameters(const py::dict& given) {
   ControllerParameters p;
-  read(given, "agent", p.agent);
+  read(given, "commanded", p.commanded);
   read(given, "leader", p.leader);
   read(given, "assistants", p.assistants);
-  read(given, "reference", p.reference);
+  read(given, "references", p.references);
   read(given, "cycle_time", p.cycle_time);
   read(given, "gain", p.gain);
   read(given, "weights", p.weights);
   read(given, "max_velocity", p.max_velocity);
   read(given, "max_acceleration", p.max_acceleration);
+  read(given, "smoothing", p.smoothing);
   read(given, "timeout", p.timeout);
   read(given, "exact_gradients", p.exact_gradients);
   read(given, "safety", p.safety);
@@ -134,22 +149,30 @@ void bindFormulation(py::module_& module) {
 
 void bindController(py::module_& module) {
   bindFormulation(module);
-  py::class_<BoundController>(module, "AssistantController",
-                              "The safe velocity controller of one assistant; see control.controller, which makes its\n"
-                              "parameters from a scenario. Raises ValueError for those that cannot be used.")
+  py::class_<BoundController>(
+      module, "TeamController",
+      "The safe velocity controller of one or several assistants, which go by their numbers in\n"
+      "the parameters; see control.team, which makes those from a scenario. Raises ValueError\n"
+      "for parameters that cannot be used.")
       .def(py::init(&makeController), py::arg("parameters"))
-      .def_property(
-          "enabled", [](const BoundController& bound) { return bound.controller.enabled; },
-          [](BoundController& bound, bool enabled) { bound.controller.enabled = enabled; },
-          "False answers every state with zero velocity.")
+      .def(
+          "is_enabled",
+          [](const BoundController& bound, int member) { return bound.controller.isEnabled(checked(bound, member)); },
+          py::arg("member"))
+      .def(
+          "set_enabled",
+          [](BoundController& bound, int member, bool enabled) {
+            bound.controller.setEnabled(checked(bound, member), enabled);
+          },
+          py::arg("member"), py::arg("enabled"), "False answers every state with zero velocity.")
       .def(
           "set_parameters",
           [](BoundController& bound, const py::dict& given) { bound.controller.setParameters(toParameters(given)); },
           py::arg("parameters"), "Of the same agents; formulation, priority and solver stay. Raises ValueError.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
-      .def("take_reference", &takeReference, py::arg("observation"), "Raises ValueError.")
-      .def("update", &update, py::arg("observation"),
-           "What is wrong with the observation, whether copies are missing, and the decision; None where the state\n"
-           "is not newer than the last one.")
-      .def("wait", [](BoundController& bound) { return toTuple(bound.controller.wait()); });
+      .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
+      .def(
+          "update", &update, py::arg("observation"),
+          "What is wrong with the observation, and the decisions; None where the state is not newer than the last one.")
+      .def("wait", [](BoundController& bound) { return toList(bound.controller.wait()); });
 }

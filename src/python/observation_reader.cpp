@@ -79,6 +79,9 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   requireShape(ready, "ready", {copies});
   arrays_.push_back(Flags::ensure(ready));
   view_.ready = py::reinterpret_borrow<Flags>(arrays_.back()).data();
+  if (!observation.attr("velocities").is_none()) {
+    view_.velocities = numbers(observation, "velocities", "velocities", {agents, 3});
+  }
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }

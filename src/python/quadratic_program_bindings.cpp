@@ -95,7 +95,7 @@ void bindQuadraticProgram(py::module_& module) {
             if (coefficients.size() != rows.components()) {
               throw py::value_error("coefficients must have " + std::to_string(rows.components()) + " components");
             }
-            rows.add(tier, coefficients.data(), bound);
+            rows.add(tier, bound) = coefficients;
           },
           py::arg("tier"), py::arg("coefficients"), py::arg("bound"), "Adds a row; bound in m/s.")
       .def_property_readonly(

@@ -31,17 +31,17 @@ std::string joined(const std::vector<std::string>& names) {
 }  // namespace
 
 AgentLink::AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
-                     const std::string& pose_namespace, double timeout, bool lockstep)
+                     const std::string& pose_namespace, double timeout, double pose_smoothing, bool lockstep)
     : name_(name),
       driven_by_(driven_by),
       frame_(frame),
       timeout_(timeout),
       lockstep_(lockstep),
       commands_(frame),
-      poses_(frame, timeout) {
+      poses_(frame, timeout, pose_smoothing) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   wrench_publisher_ = node.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", 1);
-  if (driven_by_ == DrivenBy::POSE) {
+  if (followsPoses()) {
     subscriber_ = node.subscribe(pose_namespace + name + "/pose", kQueue, &AgentLink::receivePose, this, hints);
   } else {
     pose_publisher_ = node.advertise<geometry_msgs::PoseStamped>(name + "/pose", 1);
@@ -59,15 +59,14 @@ void AgentLink::publish(const pbd::Pose& pose, const pbd::Wrench& wrench, const 
   }
 }
 
-bool AgentLink::answers(const ros::Time& state) const {
-  return driven_by_ == DrivenBy::POSE || commands_.answers(state);
-}
+bool AgentLink::answers(const ros::Time& state) const { return followsPoses() || commands_.answers(state); }
 
 pbd::Twist AgentLink::twist(const pbd::Pose& present, double cycle_time) const {
   if (driven_by_ == DrivenBy::COMMAND) {
     return commanded();
   }
-  return poses_.fresh(ros::Time::now()) ? poses_.twistFrom(present, cycle_time) : pbd::Twist();
+  const ros::Time now = ros::Time::now();
+  return poses_.fresh(now) ? poses_.twistFrom(present, now, cycle_time) : pbd::Twist();
 }
 
 bool AgentLink::isTrue(const pbd::Pose& present) const {

@@ -25,9 +25,10 @@ class AgentLink {
  public:
   //! @param pose_namespace  prefix of the pose topic of an agent driven by its pose
   //! @param timeout         [s] age at which commands and poses count as lost
+  //! @param pose_smoothing  [s] time constant of the filter of measured poses
   //! @param lockstep        commands answer the newest state and do not age
   AgentLink(ros::NodeHandle& node, const std::string& name, DrivenBy driven_by, const std::string& frame,
-            const std::string& pose_namespace, double timeout, bool lockstep);
+            const std::string& pose_namespace, double timeout, double pose_smoothing, bool lockstep);
 
   //! Publishes pose and wrench to whoever subscribes.
   void publish(const pbd::Pose& pose, const pbd::Wrench& wrench, const ros::Time& stamp);
@@ -44,6 +45,13 @@ class AgentLink {
 
   //! A clause that says why the agent's input is not used at present; empty if it is.
   std::string fault() const;
+
+  bool followsPoses() const { return driven_by_ == DrivenBy::POSE; }
+
+  //! Velocity [m/s] of the agent: measured and filtered, or that of its simulated motion.
+  pbd::Vector3 velocity(const pbd::Twist& simulated) const {
+    return followsPoses() ? poses_.velocity() : simulated.linear;
+  }
 
   //! Forgets what has been received.
   void reset();

@@ -1,5 +1,6 @@
 #include "pose_inbox.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -7,6 +8,9 @@ namespace deformable_manipulation {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;
+
+// A pose this far from where it was expected is no noise: the filter starts afresh.
+constexpr double kLeap = 0.05;  // m
 
 pbd::Vector3 limited(const pbd::Vector3& vector, double largest) {
   const double size = vector.norm();
@@ -29,23 +33,38 @@ std::string PoseInbox::receive(const geometry_msgs::PoseStamped& message) {
   } else if (!silent() && message.header.stamp <= stamp_) {
     why << "its stamp " << message.header.stamp << " is not newer than the last one, " << stamp_;
   } else {
+    if (silent()) {
+      filter_.reset();
+      origin_ = message.header.stamp;
+    }
     received_ = true;
     received_at_ = ros::SteadyTime::now();
     stamp_ = message.header.stamp;
     pose.orientation.normalize();
     pose_ = pose;
+    filter(pose.position);
   }
   return why.str();
+}
+
+void PoseInbox::filter(const pbd::Vector3& position) {
+  const double time = (stamp_ - origin_).toSec();
+  if (filter_.hasPosition() && (filter_.position(time) - position).norm() > kLeap) {
+    filter_.reset();
+  }
+  filter_.update(time, position);
 }
 
 bool PoseInbox::silent() const { return !received_ || (ros::SteadyTime::now() - received_at_).toSec() > timeout_; }
 
 bool PoseInbox::fresh(const ros::Time& now) const { return !silent() && std::abs((now - stamp_).toSec()) <= timeout_; }
 
-pbd::Twist PoseInbox::twistFrom(const pbd::Pose& present, double time) const {
+pbd::Twist PoseInbox::twistFrom(const pbd::Pose& present, const ros::Time& now, double time) const {
+  const double age = std::clamp((now - stamp_).toSec(), 0.0, timeout_);
+  const pbd::Vector3 target = filter_.position((stamp_ - origin_).toSec() + age + time);
   const Eigen::AngleAxisd rotation(pose_.orientation * present.orientation.conjugate());
   const double angle = std::remainder(rotation.angle(), 2.0 * M_PI);  // the shorter way
-  return {limited((pose_.position - present.position) / time, kMaxSpeed),
+  return {limited((target - present.position) / time, kMaxSpeed),
           limited(angle / time * rotation.axis(), kMaxAngularSpeed)};
 }
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "deformable_manipulation/control/position_filter.h"
 #include "deformable_manipulation/pbd/types.h"
 
 namespace deformable_manipulation {
@@ -18,7 +19,9 @@ class PoseInbox {
  public:
   //! @param frame    fixed frame that poses must be in
   //! @param timeout  [s] age at which a pose counts as lost
-  PoseInbox(std::string frame, double timeout) : frame_(std::move(frame)), timeout_(timeout) {}
+  //! @param smoothing  [s] time constant of the filter of positions
+  PoseInbox(std::string frame, double timeout, double smoothing)
+      : frame_(std::move(frame)), timeout_(timeout), filter_(smoothing) {}
 
   //! @return why the pose is dropped; empty if it is accepted
   std::string receive(const geometry_msgs::PoseStamped& pose);
@@ -30,15 +33,20 @@ class PoseInbox {
   //! Distance [m] from a position to the newest pose.
   double distanceFrom(const pbd::Vector3& position) const { return (pose_.position - position).norm(); }
 
-  //! The velocity that leads from a pose to the newest one in a time [s], at most kMaxSpeed: a
-  //! measurement that leaps must not tear the object.
-  pbd::Twist twistFrom(const pbd::Pose& present, double time) const;
+  //! The velocity that leads from a pose to where the agent will be in a time [s], at most kMaxSpeed: a
+  //! measurement that leaps must not tear the object. The position is filtered, and predicted from the newest
+  //! pose's stamp on; the orientation is that of the newest pose.
+  pbd::Twist twistFrom(const pbd::Pose& present, const ros::Time& now, double time) const;
+
+  //! [m/s] filtered; zero while no pose is known.
+  pbd::Vector3 velocity() const { return received_ ? pbd::Vector3(filter_.velocity()) : pbd::Vector3::Zero(); }
 
   static constexpr double kMaxSpeed = 2.0;         // m/s
   static constexpr double kMaxAngularSpeed = 6.0;  // rad/s
 
  private:
   bool silent() const;
+  void filter(const pbd::Vector3& position);
 
   std::string frame_;
   double timeout_;
@@ -46,6 +54,8 @@ class PoseInbox {
   ros::SteadyTime received_at_;
   ros::Time stamp_;
   pbd::Pose pose_;
+  ros::Time origin_;  // of the filter's time, whose differences must be exact
+  control::PositionFilter filter_;
 };
 
 }  // namespace deformable_manipulation

@@ -61,6 +61,7 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   scenario.clock.substeps = simulation.integer("substeps");
   scenario.duration = simulation.number("duration");
   scenario.command_timeout = controller.number("timeout");
+  scenario.pose_smoothing = controller.number("pose_smoothing");
   const double rate = controller.number("rate");
   scenario.clock.steps_per_cycle = static_cast<int>(std::lround(1.0 / (rate * scenario.clock.time_step)));
   check.throwIfAny();

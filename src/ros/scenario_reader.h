@@ -25,6 +25,7 @@ struct SimulatorScenario {
   pbd::Clock clock;
   double duration = 0.0;         // s
   double command_timeout = 0.0;  // s
+  double pose_smoothing = 0.0;   // s
 
   //! Index of the leader among the agents.
   int leader() const;

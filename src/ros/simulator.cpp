@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "state_message.h"
@@ -58,7 +59,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   for (std::size_t i = 0; i < scenario_.agents.size(); ++i) {
     const DrivenBy driven_by = options_.follow_poses ? DrivenBy::POSE : scenario_.driven_by[i];
     links_.emplace_back(node_, scenario_.agents[i].name, driven_by, scenario_.frame, options_.pose_namespace,
-                        scenario_.command_timeout, options_.lockstep);
+                        scenario_.command_timeout, scenario_.pose_smoothing, options_.lockstep);
   }
 }
 
@@ -123,6 +124,7 @@ void Simulator::publish() {
     }
   }
   fillState(simulation_, stamp, scenario_.frame, state_);
+  addMeasuredVelocities();
   if (scenario_.exact_response) {
     addResponse();
   }
@@ -138,6 +140,16 @@ void Simulator::publish() {
     links_[i].publish(simulation_.pose(agent), simulation_.wrench(agent), stamp);
   }
   visualization_.show(state_);
+}
+
+void Simulator::addMeasuredVelocities() {
+  state_.measured_velocities.clear();
+  if (std::any_of(links_.begin(), links_.end(), [](const AgentLink& link) { return link.followsPoses(); })) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const pbd::Vector3 velocity = links_[i].velocity(simulation_.twist(static_cast<int>(i)));
+      state_.measured_velocities.insert(state_.measured_velocities.end(), velocity.data(), velocity.data() + 3);
+    }
+  }
 }
 
 void Simulator::addResponse() {

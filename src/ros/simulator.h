@@ -47,6 +47,7 @@ class Simulator {
 
   void waitForNodes();
   void publish();
+  void addMeasuredVelocities();
   void addResponse();
   void awaitCommands();
   void await(const std::function<std::string()>& missing);

@@ -1,14 +1,16 @@
-// The controller of one assistant: nothing is allocated in a cycle, and equal inputs give equal answers.
+// The controller of one or two assistants: nothing is allocated in a cycle, and equal inputs give equal answers.
 // This file counts the calls of malloc of the whole test program.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
-#include "deformable_manipulation/control/assistant_controller.h"
+#include "deformable_manipulation/control/team_controller.h"
 
 namespace {
 
@@ -27,19 +29,33 @@ namespace deformable_manipulation {
 namespace control {
 namespace {
 
-constexpr int AGENTS = 2;
+constexpr int AGENTS = 3;
 constexpr int POINTS = 29;
 constexpr int COPIES = 7;
 
-//! A level chain between two held points above ground, which sinks with the leader.
+//! How a point of a chain held at both ends and in the middle goes with an agent, from 0 to 1.
+double share(int agent, int point) {
+  const double place = 2.0 * point / (POINTS - 1);
+  return std::max(0.0, 1.0 - std::abs(place - agent));
+}
+
+//! A chain held at three points above ground, which sinks with the leader.
 class Chain {
  public:
-  explicit Chain(int features) : features_(features) {}
+  explicit Chain(int features) : features_(features) {
+    for (int agent = 0; agent < AGENTS; ++agent) {
+      for (int point = 0; point < POINTS; ++point) {
+        for (int i = 0; i < 3; ++i) {
+          sensitivities_[9 * (agent * POINTS + point) + 4 * i] = share(agent, point);
+        }
+      }
+    }
+  }
 
-  //! State k of a leader that sinks at 0.1 m/s in front of an assistant at rest.
+  //! State k of a leader that sinks at 0.1 m/s in front of assistants at rest, of whom the first has copies.
   const ObservationView& at(int cycle) {
     const double time = 0.01 * cycle;
-    positions_ = {0.0, 0.0, 0.3 - 0.1 * time, 0.0, 1.5, 0.3};
+    positions_ = {0.0, 0.0, 0.3 - 0.1 * time, 0.0, 0.75, 0.3, 0.0, 1.5, 0.3};
     for (int copy = 0; copy < COPIES; ++copy) {
       fillCopy(copy);
     }
@@ -57,6 +73,7 @@ class Chain {
     view_.displaced_agents = displaced_.data();
     view_.displacements = displacements_.data();
     view_.ready = ready_;
+    view_.sensitivities = sensitivities_.data();
     view_.distances = {minimum_.data(),  offsets_.data(), distance_.data(), normal_.data(),
                        vertices_.data(), weights_.data(), still_.data(),    features_};
     return view_;
@@ -70,10 +87,12 @@ class Chain {
       displacements_[3 * copy + axis] = copy <= 3 ? 0.1 : -0.1;
     }
     for (int point = 0; point < POINTS; ++point) {
-      const double share = static_cast<double>(point) / (POINTS - 1);
       for (int i = 0; i < 3; ++i) {
-        coordinates_[3 * (copy * POINTS + point) + i] =
-            (1.0 - share) * positions_[i] + share * (positions_[3 + i] + displacements_[3 * copy + i]);
+        double& coordinate = coordinates_[3 * (copy * POINTS + point) + i];
+        coordinate = share(1, point) * displacements_[3 * copy + i];
+        for (int agent = 0; agent < AGENTS; ++agent) {
+          coordinate += share(agent, point) * positions_[3 * agent + i];
+        }
       }
     }
     minimum_[copy] = coordinates_[3 * copy * POINTS + 2] - 0.2;
@@ -84,6 +103,7 @@ class Chain {
   int features_;
   std::vector<double> positions_ = std::vector<double>(3 * AGENTS);
   std::vector<double> coordinates_ = std::vector<double>(3 * COPIES * POINTS);
+  std::vector<double> sensitivities_ = std::vector<double>(9 * AGENTS * POINTS);
   std::vector<double> displacements_ = std::vector<double>(3 * COPIES);
   std::vector<double> minimum_ = std::vector<double>(COPIES);
   std::vector<int> displaced_ = std::vector<int>(COPIES);
@@ -97,31 +117,38 @@ class Chain {
   ObservationView view_;
 };
 
-ControllerParameters parameters() {
+//! Of the first assistant by its copies, or of both by the exact response.
+ControllerParameters parameters(int commanded = 1) {
   ControllerParameters p;
-  p.assistants = {1};
-  p.reference = {0.0, 1.5, 0.0};
+  p.assistants = {1, 2};
+  p.commanded = {1};
+  p.references = {{0.0, 0.75, 0.0}};
+  if (commanded == 2) {
+    p.exact_gradients = true;
+    p.commanded.push_back(2);
+    p.references.emplace_back(0.0, 1.5, 0.0);
+  }
   p.collision.offset = 0.05;
-  p.overstretch.limits = {2.0, 0.0};
-  p.proximity.limits = {0.2, 0.0};
+  p.overstretch.limits = Eigen::MatrixXd::Constant(AGENTS, AGENTS, 2.0);
+  p.proximity.limits = Eigen::MatrixXd::Constant(AGENTS, AGENTS, 0.2);
   return p;
 }
 
 TEST(Allocation, isCounted) {
   const long before = allocations;
-  const AssistantController controller(parameters());
+  const TeamController controller(parameters());
   EXPECT_GT(allocations - before, 5);
 }
 
-TEST(AssistantController, allocatesNothingOnceWarm) {
-  for (const int features : {3, POINTS}) {
-    AssistantController controller(parameters());
+TEST(TeamController, allocatesNothingOnceWarm) {
+  for (const auto& [features, commanded] : {std::pair(3, 1), std::pair(POINTS, 1), std::pair(POINTS, 2)}) {
+    TeamController controller(parameters(commanded));
     Chain chain(features);
     bool constrained = false;
     for (int cycle = 0; cycle < 200; ++cycle) {
       const ObservationView& observation = chain.at(cycle);
       const long before = allocations;
-      const Decision& decision = controller.update(observation);
+      const Decision& decision = controller.update(observation)[0];
       const long needed = allocations - before;
       constrained = constrained || decision.status != Status::NOMINAL;
       if (cycle < 100) {
@@ -133,13 +160,13 @@ TEST(AssistantController, allocatesNothingOnceWarm) {
   }
 }
 
-TEST(AssistantController, answersEqualInputsEqually) {
-  AssistantController one(parameters());
-  AssistantController other(parameters());
+TEST(TeamController, answersEqualInputsEqually) {
+  TeamController one(parameters());
+  TeamController other(parameters());
   Chain chain(POINTS);
   for (int cycle = 0; cycle < 200; ++cycle) {
-    const Vector3 first = one.update(chain.at(cycle)).command;
-    EXPECT_EQ(first, other.update(chain.at(cycle)).command);
+    const Vector3 first = one.update(chain.at(cycle))[0].command;
+    EXPECT_EQ(first, other.update(chain.at(cycle))[0].command);
     EXPECT_LE(first.cwiseAbs().maxCoeff(), parameters().max_velocity);
   }
 }

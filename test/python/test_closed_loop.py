@@ -76,6 +76,26 @@ def test_exact_gradients_keep_the_rope_off_the_ground():
     assert offset - TOLERATED <= lowest_distance(records) < offset + 0.02
 
 
+@pytest.mark.parametrize("height", [1.06, 0.96])
+def test_a_start_within_the_offset_or_in_the_ground_is_mended_at_once(height):
+    """The violation falls in every cycle, at the assistant's full speed; then it stays outside."""
+    changes = {
+        "agents.leader.start": f"[0, 0, {height}]",
+        "agents.assistant_1.start": f"[0, 1.5, {height}]",
+        "object.pose.position": f"[0, 0, {height}]",
+        "simulation.duration": "2.5",
+    }
+    records = run(load_scenario("rope_one_assistant", list(changes.items())))
+    distance = np.array([record.distance for record in records])
+    offset = 0.05
+    assert distance[0] < (offset - 0.015 if height > 1.0 else -0.06)
+    assert (np.diff(distance) >= -1e-9).all()
+    outside = int(np.argmax(distance >= offset))
+    assert 0 < outside < (60 if height > 1.0 else 130)
+    command = records[outside // 2].decisions["assistant_1"].command
+    assert command[2] > 0.03 and distance[-1] == pytest.approx(offset + 0.002, abs=1e-3)
+
+
 def test_the_leader_goes_where_its_path_goes(scenario, safe):
     leader = scenario.leader_index
     travelled = safe[-1].positions[leader] - safe[0].positions[leader]
@@ -169,7 +189,7 @@ def test_the_command_records_what_the_loop_does(recorded, safe):
     assert set(summary["tracking_error"]) == {"assistant_1"}
     error = safe[-1].decisions["assistant_1"].error_norm
     assert summary["tracking_error"]["assistant_1"]["final"] == pytest.approx(error, abs=1e-9)
-    assert set(summary["timing"]) == {"simulation", "distance", "controller"}
+    assert set(summary["timing"]) == {"simulation", "distance", "controller", "solver"}
     assert all(timing["median_ms"] > 0.0 for timing in summary["timing"].values())
 
 

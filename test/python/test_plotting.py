@@ -25,6 +25,7 @@ def make_run(distance=None, offset=OFFSET, **changes):
         "h_proximity": np.full(len(time), 0.8),
         "nominal_velocity": velocity,
         "command": 0.5 * velocity,
+        "target": velocity,
         "status": np.full(len(time), Status.NOMINAL),
     }
     values.update(changes)

@@ -1,82 +1,22 @@
 #!/usr/bin/env python3
 """rviz_snapshot takes pictures of a run of its own, or says why not, and leaves nothing behind."""
 
-import os
-import shutil
 import signal
-import subprocess
-import tempfile
-import unittest
-import uuid
-from pathlib import Path
 
 import numpy as np
-import rosgraph
 import yaml
-from matplotlib.image import imread
 from observed_run import poll, run_tests
+from snapshot_command import SHARE, SnapshotCommandTest, orange_height
 
 from deformable_manipulation.ros.picture import shows_scene
-from deformable_manipulation.scenario import package_share_directory
-
-SHARE = package_share_directory()
-SCENARIO = str(SHARE / "test" / "rostest" / "short_rope.yaml")
-SIZE = (640, 400)
-MARK = "RVIZ_SNAPSHOT_TEST"  # in the environment of all its programs
 
 RUN_BESIDE = {"/simulator", "/leader", "/assistants"}
 
 
-class RvizSnapshotTest(unittest.TestCase):
+class RvizSnapshotTest(SnapshotCommandTest):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, str(self.folder))
-        self.mark = uuid.uuid4().hex
         poll(lambda: RUN_BESIDE <= self.nodes_here(), "the nodes of the run beside")
-        self.nodes = self.nodes_here()
-        self.addCleanup(self.assert_nothing_is_left)
-
-    def start(self, *arguments):
-        command = ["python3", "-m", "deformable_manipulation.commands.rviz_snapshot", SCENARIO]
-        command += ["--output", str(self.folder), "--size", "{}x{}".format(*SIZE), *arguments]
-        return subprocess.Popen(
-            command,
-            env=dict(os.environ, **{MARK: self.mark}),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            universal_newlines=True,
-        )
-
-    def run_command(self, *arguments):
-        with self.start(*arguments) as command:
-            printed, complaints = command.communicate()
-        return command.returncode, printed.split(), complaints
-
-    def read(self, name):
-        picture = np.rint(255 * imread(str(self.folder / name))[:, :, :3]).astype(np.uint8)
-        self.assertEqual(picture.shape, (SIZE[1], SIZE[0], 3))
-        return picture
-
-    @staticmethod
-    def nodes_here():
-        published, subscribed, services = rosgraph.Master("/test").getSystemState()
-        names = published + subscribed + services
-        return {node for _, nodes in names for node in nodes}
-
-    def programs(self):
-        """Process ids of the command and of all that it started."""
-        found = []
-        for entry in Path("/proc").iterdir():
-            try:
-                if entry.name.isdigit() and self.mark.encode() in (entry / "environ").read_bytes():
-                    found.append(int(entry.name))
-            except (FileNotFoundError, ProcessLookupError, PermissionError):
-                continue
-        return found
-
-    def assert_nothing_is_left(self):
-        poll(lambda: not self.programs(), "the end of all programs")
-        self.assertEqual(self.nodes_here(), self.nodes)
+        super().setUp()
 
     def test_pictures_of_a_run(self):
         status, printed, complaints = self.run_command("--times", "0,3")
@@ -135,13 +75,6 @@ class RvizSnapshotTest(unittest.TestCase):
             self.assertEqual((command.returncode, printed), (128 + number, ""), complaints)
             self.assertNotIn("Traceback", complaints)
             self.assert_nothing_is_left()
-
-
-def orange_height(picture):
-    """The mean row of the agents' balls, from the top."""
-    red, green, blue = np.moveaxis(picture.astype(int), 2, 0)
-    rows, _ = np.nonzero((red > 180) & (green > 100) & (green < 170) & (blue < 60))
-    return rows.mean()
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ import numpy as np
 from faulty_run import FaultTest
 from observed_run import Messages
 from rospy.numpy_msg import numpy_msg
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
 from walking_pose import intact, lost
 
 from deformable_manipulation.control.status import Status
@@ -57,6 +59,21 @@ class TrackedObstacleTest(FaultTest):
             np.testing.assert_allclose(position, expected, 0.0, CLOSE)
         velocities = [each.obstacle_velocities.reshape(-1, 3) for each in self.distances[-50:]]
         np.testing.assert_allclose(np.concatenate(velocities).mean(axis=0), VELOCITY, 0.0, CLOSE)
+
+    def test_rviz_gets_its_surface_once_in_a_while_and_a_frame_that_follows(self):
+        transforms, markers = Messages("/tf", TFMessage), Messages("markers", MarkerArray)
+        array = markers.wait_for(
+            lambda each: each.markers[0].ns == "obstacles", "the obstacle", len(markers)
+        )
+        (marker,) = array.markers
+        self.assertTrue(marker.frame_locked)
+        message = transforms.wait_for(
+            lambda each: each.transforms[0].child_frame_id == marker.header.frame_id, "its frame"
+        )
+        (found,) = message.transforms
+        place = found.transform.translation
+        expected = self.obstacle.position(found.header.stamp)
+        np.testing.assert_allclose([place.x, place.y, place.z], expected, 0.0, CLOSE)
 
     def test_lost(self):
         self.assert_stops_and_goes_on(lost, "obstacle 'ground' is lost: no pose for")

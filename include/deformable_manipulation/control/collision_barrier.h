@@ -27,13 +27,14 @@ struct CollisionParameters {
 //!
 //!   dh/dt = sum_a g_a . v_a - n . w = sum over assistants g_i . (u_i - v_leader) + n . (v_leader - w).
 //!
-//! Assistants share dh/dt >= -alpha(h) in proportion to what they can do, s_i = g_i^2 / sum g^2:
+//! Those who are not commanded together share dh/dt >= -alpha(h) in proportion to what they can do. For the commanded
+//! assistants i, with s = (sum of g_i^2 over them) / (sum of g^2 over all assistants),
 //!
-//!   g_i . (u_i - v_leader) >= -s_i (n . (v_leader - w) + alpha(h)).
+//!   sum_i g_i . (u_i - v_leader) >= -s (n . (v_leader - w) + alpha(h)).
 //!
 //! The shares sum to the whole constraint; no assistant's velocity is fed back to another, and a formation
-//! that moves as one with the leader along the obstacle is not held back. For a single assistant this is
-//! g . u + g_leader . v_leader - n . w >= -alpha(h).
+//! that moves as one with the leader along the obstacle is not held back. Where all assistants are commanded
+//! together, as is a single one, s = 1: sum_i g_i . u_i + g_leader . v_leader - n . w >= -alpha(h).
 //!
 //! The rows stay above the offset by margin + speed_margin |v_leader|, and take the distance as predicted for
 //! the time when the command acts. A second row of the same form for each feature, of the tier ANTICIPATION
@@ -41,11 +42,11 @@ struct CollisionParameters {
 //! loosen until no velocity is beyond them, so that features come and go without a step in the command.
 class CollisionBarrier {
  public:
-  //! @param agent index of this agent
-  //! @param assistants indices of all assistants, this agent among them
+  //! @param commanded indices of the assistants whose velocities the rows are of, in their order
+  //! @param assistants indices of all assistants, the commanded ones among them
   //! @param max_velocity [m/s] bound on every component
-  CollisionBarrier(int agent, std::vector<int> assistants, const CollisionParameters& parameters, double max_velocity,
-                   const Formulation& formulation = {});
+  CollisionBarrier(std::vector<int> commanded, std::vector<int> assistants, const CollisionParameters& parameters,
+                   double max_velocity, const Formulation& formulation = {});
 
   //! h [m] of a signed distance [m]; without margins.
   double value(double distance) const { return distance - parameters_.offset; }
@@ -57,9 +58,9 @@ class CollisionBarrier {
   Vector3 leaderVelocity(const Situation& situation) const;
   Vector3 obstacleVelocity(const Features& features, int feature) const;
   double predictedDistance(const Features& features, int feature, const Situation& situation) const;
-  double share(const Features& features, int feature) const;
+  double shareOf(const Features& features, int feature) const;
 
-  int agent_;
+  std::vector<int> commanded_;
   std::vector<int> assistants_;
   CollisionParameters parameters_;
   double max_velocity_;

@@ -31,12 +31,14 @@ class ConstraintRows {
     coefficients_.clear();
   }
 
-  //! @param coefficients [components]
+  //! Adds a row.
   //! @param bound [m/s]
-  void add(Tier tier, const double* coefficients, double bound) {
+  //! @return its coefficients [components], zeros to be filled in before the next row is added
+  Eigen::Map<Eigen::VectorXd> add(Tier tier, double bound) {
     tiers_.push_back(tier);
     bounds_.push_back(bound);
-    coefficients_.insert(coefficients_.end(), coefficients, coefficients + components_);
+    coefficients_.resize(coefficients_.size() + components_, 0.0);
+    return {coefficients_.data() + (size() - 1) * components_, components_};
   }
 
   int size() const { return static_cast<int>(tiers_.size()); }

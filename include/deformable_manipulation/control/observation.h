@@ -35,6 +35,7 @@ struct ObservationView {
   int copies = 0;
   int points = 0;
   const double* positions = nullptr;      //!< [A x 3] m, held points
+  const double* velocities = nullptr;     //!< [A x 3] m/s, of the held points; null: to be found from the positions
   const double* coordinates = nullptr;    //!< [C x P x 3] m, geometry points of each copy
   const int* displaced_agents = nullptr;  //!< [C] whose held point is displaced; -1: none
   const double* displacements = nullptr;  //!< [C x 3] m, present displacement of that held point

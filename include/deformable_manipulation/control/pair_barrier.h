@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "deformable_manipulation/control/class_k.h"
@@ -9,7 +10,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! A barrier on the distance r between an agent's held point i and each other one j.
+//! A barrier on the distance r between the held point i of each commanded assistant and each other one j.
 //!
 //! Overstretch: h = max_distance - margin - r (paper, eqs. 8 to 10). Proximity: h = r - min_distance - margin
 //! (eqs. 11 and 12). With the unit vector a = (x_j - x_i) / r, dr/dt = a . (v_j - u_i), the gradient g of h with
@@ -17,9 +18,13 @@ namespace control {
 //!
 //!   g . u_i >= g . v_j - alpha(h).
 //!
-//! Against the leader, whose velocity v_j is measured, the agent takes the whole constraint. Two assistants
-//! share it. Each feeding back the other's last measured velocity would be a loop of gain one with a delay, so
-//! each keeps its velocity relative to the leader's within half:
+//! Against the leader, whose velocity v_j is measured, the assistant takes the whole constraint. Between two that
+//! are commanded together both velocities are variables of one row,
+//!
+//!   g . (u_i - u_j) >= -alpha(h).
+//!
+//! Two assistants that are not share it. Each feeding back the other's last measured velocity would be a loop of gain
+//! one with a delay, so each keeps its velocity relative to the leader's within half:
 //!
 //!   g_i . (u_i - v_leader) >= -alpha(h) / 2.
 //!
@@ -33,32 +38,35 @@ class PairBarrier {
  public:
   enum class Kind { OVERSTRETCH, PROXIMITY };
 
-  //! @param agent, leader indices of this agent and the leader
-  //! @param limits [A] m, distances to keep to; the own entry is not used
+  //! @param commanded indices of the assistants whose velocities the rows are of, in their order
+  //! @param leader index of the leader
+  //! @param limits [A x A] m, distances to keep to, symmetric; the diagonal is not used
   //! @param margin [m] by which the rows stay within the limits
-  PairBarrier(Kind kind, int agent, int leader, std::vector<double> limits, double margin, PiecewiseLinearClassK alpha,
-              bool shares = true);
+  PairBarrier(Kind kind, std::vector<int> commanded, int leader, Eigen::MatrixXd limits, double margin,
+              PiecewiseLinearClassK alpha, bool shares = true);
 
-  //! What is left of the limit against another agent [m], for the held points [A]; without the margin.
-  double value(const std::vector<Vector3>& positions, int other) const;
+  //! What is left of the limit between two agents [m], for the held points [A]; without the margin.
+  double value(const std::vector<Vector3>& positions, int agent, int other) const;
 
-  //! The least value over all other agents [m]; infinite if there is none.
-  double lowest(const std::vector<Vector3>& positions) const;
+  //! The least value of an agent over all others [m]; infinite if there is none.
+  double lowest(const std::vector<Vector3>& positions, int agent) const;
 
-  //! d value / d own held point, a unit vector.
-  Vector3 gradient(const std::vector<Vector3>& positions, int other) const;
+  //! d value / d held point of the agent, a unit vector.
+  Vector3 gradient(const std::vector<Vector3>& positions, int agent, int other) const;
 
-  //! Adds one constraint per other agent.
+  //! Adds one constraint for each pair of agents of which one is commanded.
   void addRows(const Situation& situation, ConstraintRows& rows) const;
 
  private:
-  int agents() const { return static_cast<int>(limits_.size()); }
+  int agents() const { return static_cast<int>(limits_.rows()); }
+  int columnOf(int agent) const;
+  void addRow(const Situation& situation, int column, int other, ConstraintRows& rows) const;
 
   Tier tier_;
   double sign_;  // +1: stay farther than the limit, -1: stay nearer
-  int agent_;
+  std::vector<int> commanded_;
   int leader_;
-  std::vector<double> limits_;
+  Eigen::MatrixXd limits_;
   double margin_;
   PiecewiseLinearClassK alpha_;
   bool shares_;

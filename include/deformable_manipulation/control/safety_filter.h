@@ -14,6 +14,9 @@ namespace control {
 //! [m/s] by which a constraint may be missed before it counts as relaxed.
 constexpr double VELOCITY_TOLERANCE = 1e-6;
 
+//! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
+constexpr double ANTICIPATION_WEIGHT = 10.0;
+
 //! Which of the limits yields to which: the first is the last to yield.
 using Priority = std::array<Tier, LIMIT_TIERS>;
 constexpr Priority DEFAULT_PRIORITY = {Tier::COLLISION, Tier::OVERSTRETCH, Tier::PROXIMITY};
@@ -24,6 +27,7 @@ struct Filtered {
   Status status = Status::FAILED;        //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
   std::array<double, TIERS> slack = {};  //!< [m/s] by how much the rows of each tier are missed at most
   int rows = 0;
+  bool rows_act = false;  //!< the bounds alone would allow another velocity
 };
 
 //! The velocity nearest to the nominal one that the constraints allow.
@@ -59,6 +63,9 @@ class SafetyFilter {
   //! Other weights, as many. @throw std::invalid_argument if one is not positive and finite
   void setWeights(const Eigen::VectorXd& weights);
 
+  //! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
+  void setAnticipation(double weight) { anticipation_ = weight; }
+
   //! Another solver than DualActiveSet.
   void setSolver(QpSolver solver) { solver_ = std::move(solver); }
 
@@ -89,6 +96,7 @@ class SafetyFilter {
   Eigen::VectorXd squares_;  // [n] of the weights, the largest 1: only their ratios matter
   std::array<double, TIERS> penalties_;
   bool relaxation_;
+  double anticipation_ = ANTICIPATION_WEIGHT;
   QpSolver solver_;
   DualActiveSet native_;
   QuadraticProgram program_;

@@ -9,6 +9,8 @@
 namespace deformable_manipulation {
 namespace pbd {
 
+class FabricResponse;
+
 //! A fabric: springs along the edges of a triangle mesh and bending across them (Bergou et al. 2006), by extended
 //! position-based dynamics (Macklin et al. 2016) with small substeps (Macklin et al. 2019).
 //!
@@ -38,6 +40,10 @@ class Fabric final : public Body {
   //! Mean elongation of the edges, weighted with the area of their triangles.
   double stretch() const override;
   Wrench wrench(int particle) const override;
+
+  //! At the present shape, which is near an equilibrium where it is not moving fast. NOT_CONVERGED before the first
+  //! step after a change of holds or material; UNSTABLE where the fabric is about to snap to another shape.
+  ResponseStatus response(double* to) override;
   void layOut() override;
   void points(double* to) const override;
   Pose pose(int particle) const override;
@@ -65,6 +71,7 @@ class Fabric final : public Body {
 
   FabricParameters parameters_;
   std::unique_ptr<State> state_;
+  std::unique_ptr<FabricResponse> response_;  // once it is asked for, until the holds change
 };
 
 }  // namespace pbd

@@ -22,8 +22,9 @@ class Case:
     overrides: Tuple[Tuple[str, str], ...] = ()  # keys and values of the scenario
 
 
-# The fabric comes to the cube only after 200 s: its leader goes there at 0.1 m/s instead, is half
-# way down when the measurement begins, and goes on low above the cube.
+# The fabric comes to the cube only after 200 s. Here its leader is above it after 21 s, most of the
+# way down when the measurement begins, and stays low above it until 151 s: without ROS the
+# barriers of all assistants are active in each of these cycles.
 _TO_THE_CUBE = tuple(
     (f"leader.waypoints.{index}.time", str(time))
     for index, time in enumerate((1, 21, 51, 101, 151, 201, 251), start=1)

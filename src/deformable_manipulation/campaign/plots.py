@@ -5,6 +5,7 @@ from typing import Sequence
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.ticker import SymmetricalLogLocator
 
 from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.plotting import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
@@ -15,6 +16,7 @@ _PANELS = (
     ("final_error", "error at\nthe end [mm]"),
 )
 _HEIGHT = 3.4  # in
+_LINEAR = 10.0  # mm; beyond it an axis is logarithmic
 
 
 def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> Figure:
@@ -37,7 +39,10 @@ def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> F
             axis.set_xlabel(label.replace("\n", " "))
             axis.set_ylabel("share of runs")
             axis.set_ylim(0.0, 1.02)
-            axis.set_xscale("symlog", linthresh=1.0)
+            if np.abs(millimetres).max(initial=0.0) > _LINEAR:
+                axis.set_xscale("symlog", linthresh=_LINEAR)
+                axis.xaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=_LINEAR))
+            axis.margins(x=0.05)
         axes[0].axvline(0.0, color=VERMILLION, linestyle="--", linewidth=0.8)
         figure.suptitle(f"{name}: {len(outcomes)} runs")
     return figure

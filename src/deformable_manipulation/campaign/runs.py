@@ -38,13 +38,8 @@ class SeriesRecorder:
     """Keeps the table of a run, and no files."""
 
     def __init__(self, scenario: Scenario):
-        names = tuple(agent.name for agent in scenario.agents)
-        assistants = tuple(names[index] for index in scenario.assistants)
-        self.series = TimeSeries(names, assistants, rows=scenario.cycles)
-
-    def record(self, record) -> None:
-        """Keep one cycle."""
-        self.series.append(record)
+        self.series = TimeSeries.of(scenario)
+        self.record = self.series.append
 
 
 def _not_started(index: int, problem: str) -> RunOutcome:

@@ -15,13 +15,22 @@ from deformable_manipulation.obstacle_motion import MovingObstacles, obstacle_pl
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
-from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import (
+    FabricSpec,
+    KnowledgeSpec,
+    RodSpec,
+    Scenario,
+)
 from deformable_manipulation.simulation import make_simulation
 
 _ATTEMPTS = 20
 _BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in
 _START_SHIFT = 0.05  # m, of an assistant's start
 _PLACES = 50  # of a moving obstacle on its way, which the leader's path keeps clear of
+_MOST_NOISE = 0.002  # m, of imperfect knowledge: each up to this
+_MOST_DELAY = 0.05  # s
+_LARGEST_FACTOR = 2.0  # of the material, true over assumed or the other way
+_MOST_DROPS = 0.2
 _SPARE = 0.05  # m, beyond the offset, that the object is clear at the start
 
 
@@ -38,6 +47,7 @@ class Ranges:
     clearance: float = 0.25  # m, that the leader's grip keeps from the obstacles
     material: float = 1.5  # stiffness and weight are changed by up to this factor
     terrain: bool = True  # False: the scenario's own obstacles
+    imperfect: bool = False  # True: what the controllers know is wrong, by random amounts
 
 
 def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
@@ -87,7 +97,20 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         ranges.clearance,
     )
     leader = dataclasses.replace(drawn.leader, waypoints=tuple(path))
-    return dataclasses.replace(drawn, leader=leader)
+    drawn = dataclasses.replace(drawn, leader=leader)
+    # Last, so that the rest of a run is the same with it and without.
+    return dataclasses.replace(drawn, knowledge=_knowledge(random)) if ranges.imperfect else drawn
+
+
+def _knowledge(random) -> KnowledgeSpec:
+    return KnowledgeSpec(
+        pose_noise=random.uniform(0.0, _MOST_NOISE),
+        pose_delay=random.uniform(0.0, _MOST_DELAY),
+        stiffness_factor=_factor(_LARGEST_FACTOR, random),
+        density_factor=_factor(_LARGEST_FACTOR, random),
+        dropped_cycles=random.uniform(0.0, _MOST_DROPS),
+        seed=int(random.integers(2**31)),
+    )
 
 
 def _checked(scenario: Scenario, index: int) -> Scenario:

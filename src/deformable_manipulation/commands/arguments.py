@@ -2,17 +2,20 @@
 
 import argparse
 import re
+from pathlib import Path
 from typing import List, Sequence, Tuple
 
 # Where the next key of several begins: values may have blanks, too.
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
 
 
-def add_scenario_arguments(parser: argparse.ArgumentParser) -> None:
+def add_scenario_arguments(
+    parser: argparse.ArgumentParser,
+    name: str = "scenario",
+    description: str = "scenario file (YAML), or the name of a scenario of this package",
+) -> None:
     """Add the scenario, and ``--set`` to replace values of it."""
-    parser.add_argument(
-        "scenario", help="scenario file (YAML), or the name of a scenario of this package"
-    )
+    parser.add_argument(name, help=description)
     parser.add_argument(
         "--set",
         metavar="KEY.PATH=VALUE",
@@ -39,6 +42,13 @@ def overrides(text: str) -> List[Tuple[str, str]]:
     Raises argparse.ArgumentTypeError where one is not of that form.
     """
     return [override(item) for item in _NEXT_KEY.split(text.strip()) if item]
+
+
+def folder_name(text: str) -> Path:
+    """The folder that a user names; raises argparse.ArgumentTypeError for an empty name."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("is empty; give the name of a folder, . for this one")
+    return Path(text)
 
 
 def times_of(text: str) -> Sequence[float]:

@@ -13,6 +13,7 @@ from deformable_manipulation.benchmarks.rivals.environment import (
     install,
 )
 from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
+from deformable_manipulation.commands.arguments import folder_name
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.interruption import exit_status, interruptible
 
@@ -63,7 +64,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument("subject", nargs="?", choices=list(SUBJECTS), help="what is measured")
     parser.add_argument("--quick", action="store_true", help="a few short repetitions, for a look")
     parser.add_argument(
-        "--output", metavar="DIR", type=Path, help="write JSON, CSV and Markdown into a folder"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="write JSON, CSV and Markdown into a folder",
     )
     parser.add_argument(
         "--update-docs",
@@ -114,7 +118,3 @@ def _warn(value: float) -> None:
 
 def _say(what: str) -> None:
     print(f"{NAME}: {what}", file=sys.stderr, flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,6 +1,7 @@
 """The command ``check_scenario``: is a scenario file correct, and what does it hold."""
 
 import argparse
+import math
 import sys
 from itertools import combinations
 from typing import Iterator, Optional, Sequence
@@ -11,6 +12,7 @@ from deformable_manipulation.commands.launch_arguments import (
     launch_problems,
 )
 from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
@@ -50,6 +52,8 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print("{}: correct".format(arguments.scenario))
         for line in summary(scenario):
             print("  {}".format(line))
+        for warning in warnings(scenario, find_scenario(arguments.scenario).stem):
+            print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
     return 0
 
 
@@ -85,6 +89,44 @@ def describe_object(spec) -> str:
     )
 
 
+def describe_material(spec) -> str:
+    """What the object is made of: the values that a material preset and the scenario give."""
+    if isinstance(spec, RodSpec):
+        area = math.pi * spec.radius**2
+        return (
+            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
+            "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
+                spec.density,
+                spec.young_modulus,
+                spec.torsion_modulus,
+                spec.density * area * spec.length,
+                spec.young_modulus * area * spec.radius**2 / 4.0,
+            )
+        )
+    stiffnesses = (
+        "{:.4g} {}".format(1.0 / compliance, unit) if compliance else "rigid"
+        for compliance, unit in (
+            (spec.stretching_compliance, "N/m"),
+            (spec.bending_compliance, "N m"),
+        )
+    )
+    return "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
+        spec.density, spec.thickness, *stiffnesses
+    )
+
+
+def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
+    """What is allowed, and rarely meant; ``file_name`` is without its ending."""
+    # Imported late: loads the compiled distances, which error messages do not need.
+    from deformable_manipulation.distance.minimum_distance import MinimumDistance
+
+    if scenario.name != file_name:
+        yield "name: its runs and pictures will be called '{}', the file is called '{}'".format(
+            scenario.name, file_name
+        )
+    yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
+
+
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
@@ -108,6 +150,7 @@ def describe_motion(motion) -> str:
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
     yield "object: {}".format(describe_object(scenario.object))
+    yield "material: {}".format(describe_material(scenario.object))
     for agent in scenario.agents:
         yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
             agent.name,
@@ -133,7 +176,3 @@ def summary(scenario: Scenario) -> Iterator[str]:
     yield "duration: {:g} s, {} cycles at {:g} Hz".format(
         scenario.simulation.duration, scenario.cycles, scenario.controller.rate
     )
-
-
-if __name__ == "__main__":
-    sys.exit(main())

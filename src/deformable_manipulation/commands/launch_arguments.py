@@ -7,7 +7,7 @@ from typing import Iterator, Sequence
 from deformable_manipulation.commands.arguments import overrides
 from deformable_manipulation.scenario.errors import Problem
 from deformable_manipulation.scenario.readers import nearest
-from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.spec import CENTRALISED, DECENTRALISED, Scenario
 
 
 def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,13 +26,17 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         "--assistants",
         metavar="NAMES",
         type=str.split,
-        default=[],
         help="assistants that the scenario must have, separated by blanks",
     )
     group.add_argument(
         "--all-assistants",
         action="store_true",
         help="--assistants must name all of them: a lock-step run waits for each",
+    )
+    group.add_argument(
+        "--separate",
+        action="store_true",
+        help="each controller has a process of its own",
     )
     group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
     group.add_argument(
@@ -42,7 +46,10 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
 
 def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
     """What is wrong with a launch's arguments for a correct scenario."""
-    yield from _assistant_problems(arguments, scenario)
+    if arguments.assistants is not None:
+        yield from _assistant_problems(arguments, scenario)
+        yield from _knowledge_problems(scenario)
+    yield from _cooperation_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
@@ -72,6 +79,36 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
             "lacks {}, and a lock-step run waits for every assistant; give "
             'assistants:="{}"'.format(", ".join(absent), " ".join(known)),
             f"'{' '.join(given)}'",
+        )
+
+
+def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    if scenario.controller.cooperation != CENTRALISED:
+        return
+    if arguments.separate:
+        yield Problem(
+            "controller.cooperation",
+            "one process decides for all assistants then; leave out one_process:=false (and "
+            f"agent.launch, for an assistant's own computer), or make it {DECENTRALISED}",
+            f"'{CENTRALISED}'",
+        )
+    elif arguments.assistants:
+        known = [scenario.agents[index].name for index in scenario.assistants]
+        if set(known) - set(arguments.assistants):
+            yield Problem(
+                "assistants",
+                "must be all of a centralised scenario, or none; give "
+                'assistants:="{}"'.format(" ".join(known)),
+                f"'{' '.join(arguments.assistants)}'",
+            )
+
+
+def _knowledge_problems(scenario: Scenario) -> Iterator[Problem]:
+    if not scenario.knowledge.perfect:
+        yield Problem(
+            "knowledge",
+            "is of runs without ROS (run_scenario, run_campaign): nodes know what they are told; "
+            "remove the section",
         )
 
 

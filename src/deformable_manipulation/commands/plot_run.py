@@ -5,18 +5,22 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import times_of
+from deformable_manipulation.commands.arguments import folder_name, times_of
+from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
 from deformable_manipulation.recording.frames import read_frames
 
+NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")
 DESCRIPTION = """Make the data plots of a run. One figure per controller: distance with its offset
 (cut off at five times that), tracking error, margins to overstretch and proximity,
 nominal and commanded velocity. One overview: overlaid snapshots of obstacles, object and agents,
-the places that the assistants would keep, and distance, errors and margins of all of them."""
+the places that the assistants would keep, and distance, errors and margins of all of them.
+As wide as one column of a paper (3.5 in), in letters of 8 points, as PNG and as PDF."""
 EXAMPLES = """examples:
   plot_run output/rope_one_assistant_20250131_120000
-  plot_run run.bag --output figures --format png,pdf
+  plot_run run.bag --output figures --format pdf
   plot_run output/trial --times 30,60,130,160
   plot_run output/run.bag --namespace left --show
 """
@@ -28,23 +32,25 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     try:
         run = read_run(arguments.path, arguments.namespace)
     except RunDataError as error:
-        print(f"plot_run: {error}", file=sys.stderr)
-        return 1
+        return fail(NAME, str(error))
     for note in run.notes:
         print(f"note: {note}", file=sys.stderr)
-    if arguments.times and max(arguments.times) > run.time[-1] + 1e-9:
-        print(
-            f"plot_run: --times: {max(arguments.times):g} s is after the end of the run; "
-            f"allowed: 0 to {run.time[-1]:g} s",
-            file=sys.stderr,
+    end = run.time_range[1]
+    if arguments.times and max(arguments.times) > end:
+        return fail(
+            NAME,
+            f"--times: {max(arguments.times):g} s is after the end of the run; "
+            f"allowed: 0 to {end:g} s",
         )
-        return 1
-    figures = _draw(run, arguments.times, arguments.show)
     try:
-        _save(run, figures, arguments.output, arguments.format)
+        folder = _output_folder(run, arguments.output)
+        figures = _draw(run, arguments.times, arguments.show)
+        prefix = "" if run.path.is_dir() else f"{run.name}_"
+        paths = _save(figures, folder, prefix, arguments.format)
     except OSError as error:
-        print(f"plot_run: cannot write the figures: {error}", file=sys.stderr)
-        return 1
+        return fail(NAME, f"cannot write the figures: {error}")
+    for path in paths:
+        print(path)
     if arguments.show:
         _show()
     return 0
@@ -52,19 +58,24 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
-        prog="plot_run",
+        prog=NAME,
         description=DESCRIPTION,
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("path", help="run folder, bag, or folder that holds one bag")
-    parser.add_argument("--output", metavar="DIR", help="where to write (default: beside the run)")
+    parser.add_argument(
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="where to write (default: beside the run)",
+    )
     parser.add_argument(
         "--format",
         type=_formats,
-        default=["png"],
+        default=["png", "pdf"],
         metavar="FORMATS",
-        help="one or more of {}, separated by commas (default: png)".format(", ".join(FORMATS)),
+        help="one or more of {}, separated by commas (default: png,pdf)".format(", ".join(FORMATS)),
     )
     parser.add_argument(
         "--times",
@@ -113,18 +124,20 @@ def _window(title: str):
     return pyplot.figure(title)
 
 
-def _save(run: RunData, figures, output: Optional[str], formats: Sequence[str]) -> None:
+def _output_folder(run: RunData, output: Optional[Path]) -> Path:
+    beside = run.path if run.path.is_dir() else run.path.parent
+    return writable_folder(output or beside)
+
+
+def _save(figures, folder: Path, prefix: str, formats: Sequence[str]) -> List[Path]:
     from deformable_manipulation.plotting import save_figure
 
-    is_folder = run.path.is_dir()
-    folder = Path(output) if output else (run.path if is_folder else run.path.parent)
-    folder.mkdir(parents=True, exist_ok=True)
-    prefix = "" if is_folder else run.name + "_"
+    paths = []
     for name, figure in figures.items():
         for ending in formats:
-            path = folder / f"{prefix}{name}.{ending}"
-            save_figure(figure, path)
-            print(path)
+            paths.append(folder / f"{prefix}{name}.{ending}")
+            save_figure(figure, paths[-1])
+    return paths
 
 
 def _show() -> None:
@@ -132,10 +145,6 @@ def _show() -> None:
     from matplotlib import pyplot
 
     if matplotlib.get_backend().lower() == "agg":
-        print("plot_run: no display to show the figures on", file=sys.stderr)
+        fail(NAME, "no display to show the figures on")
         return
     pyplot.show()
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -15,8 +15,10 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
 from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_files import atomic_file
@@ -38,6 +40,7 @@ EPILOG = """examples:
 The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
 deadlocked, and no program failed; 3 otherwise.
 """
+_FASTEST = 2.0  # m/s, of a leader
 UNACCEPTABLE = 3  # exit status: the campaign was done, and something in it went wrong
 
 
@@ -52,6 +55,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except (ScenarioError, NoVariation, OSError) as error:
         print(f"run_campaign: {error}", file=sys.stderr)
         return 1
+    warn_of_standing_obstacles("run_campaign", scenario)
     with interruptible():
         return _run(campaign, arguments, folder)
 
@@ -73,7 +77,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     parser.add_argument(
         "--speed",
-        type=_positive(float),
+        type=_speed,
         default=defaults.speed,
         metavar="M/S",
         help="that no component of the leader's velocity exceeds (%(default)s)",
@@ -106,6 +110,13 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="keep the obstacles of the scenario",
     )
     parser.add_argument(
+        "--imperfect",
+        action="store_true",
+        help="the controllers know less than all, each by a random amount: noise up to 2 mm and "
+        "delay up to 50 ms on poses, material wrong by up to a factor of 2, up to 20 %% of the "
+        "cycles dropped",
+    )
+    parser.add_argument(
         "--tolerance",
         type=float,
         default=0.001,
@@ -125,7 +136,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--no-safety", dest="safety", action="store_false", help="switch the safety filter off"
     )
     parser.add_argument(
-        "--output", metavar="DIR", help="default: output/campaign_<scenario>_<time>"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="default: output/campaign_<scenario>_<time>",
     )
     return parser.parse_args(argv)
 
@@ -139,6 +153,16 @@ def _positive(kind):
 
     convert.__name__ = "number"
     return convert
+
+
+def _speed(text):
+    value = _positive(float)(text)
+    if value > _FASTEST:
+        raise argparse.ArgumentTypeError(
+            f"'{text}': must be at most {_FASTEST:g} m/s; assistants move at "
+            f"controller.max_velocity, and nobody can answer a leader that is much faster"
+        )
+    return value
 
 
 def _natural(text):
@@ -168,10 +192,16 @@ def _ranges(arguments: argparse.Namespace) -> Ranges:
 
 def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
-    folder = Path(arguments.output) if arguments.output else default
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = arguments.output or default
     if (folder / "campaign.json").exists():
         raise FileExistsError(f"{folder} holds a campaign already; choose another --output")
+    try:
+        writable_folder(folder)  # now, not after hours of runs
+    except OSError as error:
+        raise OSError(
+            f"cannot write into {folder}: {error.strerror}; choose a folder you may write to with "
+            f"--output"
+        ) from error
     return folder
 
 
@@ -240,7 +270,3 @@ def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> N
             file.write(scenario_to_yaml(varied))
     offset = campaign.scenario.controller.collision.offset
     save_figure(plot_campaign(outcomes, offset, campaign.scenario.name), folder / "campaign.png")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -6,10 +6,10 @@ import time
 from pathlib import Path
 from typing import Optional, Sequence
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
 from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.interruption import exit_status, interruptible, interrupts_ignored
-from deformable_manipulation.obstacle_motion import names_without_path
 from deformable_manipulation.recording import RecordingError, RunRecorder
 from deformable_manipulation.recording.summary import describe
 from deformable_manipulation.scenario import ScenarioError, load_scenario
@@ -31,7 +31,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         scenario = load_scenario(arguments.scenario, arguments.set)
         # Before the folder is made: a scenario that cannot be simulated leaves nothing behind.
         loop = _make_loop(scenario, arguments.safety)
-        folder = Path(arguments.output) if arguments.output else _default_folder(scenario)
+        folder = arguments.output or _default_folder(scenario)
         recorder = RunRecorder(scenario, folder, arguments.safety, overwrite=arguments.force)
     except (ScenarioError, RecordingError) as error:
         print(error, file=sys.stderr)
@@ -42,8 +42,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Of the simulation: a parameter out of its range, no settled shape.
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
-    _warn_of_standing(scenario)
+    warn_of_standing_obstacles("run_scenario", scenario)
     _warn_of_start(loop.distance(), scenario.controller.collision.offset)
+    _warn_of_poses(scenario)
     with interruptible():
         return _run(loop, recorder)
 
@@ -57,7 +58,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     add_scenario_arguments(parser)
     parser.add_argument(
-        "--output", metavar="DIR", help="folder of the run (default: output/<scenario>_<time>)"
+        "--output",
+        metavar="DIR",
+        type=folder_name,
+        help="folder of the run (default: output/<scenario>_<time>)",
     )
     parser.add_argument(
         "--no-safety",
@@ -82,22 +86,24 @@ def _make_loop(scenario: Scenario, safety: bool):
     return ClosedLoop(scenario, safety=safety)
 
 
-def _warn_of_standing(scenario: Scenario) -> None:
-    """Topics and tf need ROS."""
-    for name in names_without_path(scenario):
-        print(
-            f"run_scenario: WARNING: obstacle {name!r} stands at its own pose: its motion comes "
-            "from ROS; start the launch file instead, or give it waypoints",
-            file=sys.stderr,
-        )
-
-
 def _warn_of_start(distance: float, offset: float) -> None:
     """A start within a limit is allowed, and rarely meant."""
     if distance < offset:
         print(
             f"run_scenario: WARNING: the object starts {1e3 * distance:.1f} mm from the obstacles, "
             f"nearer than controller.collision.offset, {1e3 * offset:.1f} mm (negative: inside)",
+            file=sys.stderr,
+        )
+
+
+def _warn_of_poses(scenario: Scenario) -> None:
+    """Without ROS nobody publishes poses."""
+    names = [agent.name for agent in scenario.agents if agent.driven_by == "pose"]
+    if names:
+        print(
+            f"run_scenario: WARNING: without ROS {', '.join(names)} moves as commanded, as with "
+            f"driven_by: command; for poses measured late and with noise see the section "
+            f"`knowledge` (docs/parameters.md)",
             file=sys.stderr,
         )
 
@@ -135,7 +141,3 @@ def _finish(recorder: RunRecorder, wall_time: float, completed: bool) -> bool:
     print(describe(summary))
     print(f"written to {recorder.directory}")
     return True
-
-
-if __name__ == "__main__":
-    sys.exit(main())

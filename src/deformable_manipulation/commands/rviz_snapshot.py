@@ -1,59 +1,43 @@
-"""Saves pictures of a scenario as RViz shows it, without a screen."""
+"""Saves pictures and videos of a scenario or a recorded run as RViz shows it, without a screen."""
 
 import argparse
 import sys
 import tempfile
-from pathlib import Path
-from typing import Optional, Sequence, Tuple
+from functools import partial
+from typing import Optional, Sequence
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments, times_of
+from deformable_manipulation.authoring.rviz_choice import own_configuration, rviz_configuration
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.output_folder import writable_folder
+from deformable_manipulation.commands.snapshot_arguments import NAME, parse_arguments
+from deformable_manipulation.commands.snapshot_source import SnapshotSource, read_source
 from deformable_manipulation.interruption import exit_status, interruptible
-from deformable_manipulation.scenario import (
-    ScenarioError,
-    load_scenario,
-    package_share_directory,
-)
-from deformable_manipulation.scenario.spec import Scenario
-
-NAME = "rviz_snapshot"
-DEFAULT_CONFIGURATION = "rope_one_assistant"
-LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
-DESCRIPTION = """Save pictures of a scenario as RViz shows it. Runs the scenario in lock-step on a
-ROS master of its own, stops it at each time, and takes a picture of RViz on a virtual display.
-Nothing that runs already is disturbed, and no screen is needed."""
-EXAMPLES = """examples:
-  rviz_snapshot rope_one_assistant --times 30,60,130
-  rviz_snapshot my_scenario.yaml --output figures --size 1920x1080 --view YZ
-  rviz_snapshot rope_one_assistant --set controller.collision.offset=0.1
-
-The pictures are named SCENARIO_tTIME.png; their paths are printed.
-exit status: 0 every picture is saved, 1 one is not (the reason is on stderr), 2 wrong usage
-"""
+from deformable_manipulation.recording import RunDataError
+from deformable_manipulation.scenario import ScenarioError
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
     """Run the command; returns its exit status."""
-    arguments = _parse(argv)
+    arguments = parse_arguments(argv)
     try:
-        scenario = load_scenario(arguments.scenario, arguments.set)
+        source = read_source(arguments.source, arguments.set, arguments.namespace)
+        first, last = source.time_range
+        _check(arguments, source)
     except ScenarioError as error:
         print(error, file=sys.stderr)
         return 1
-    times = sorted(set(arguments.times or [0.5 * scenario.simulation.duration]))
-    if times[-1] > scenario.simulation.duration:
-        return fail(
-            NAME,
-            f"--times: {times[-1]:g} s is after the end of the scenario; "
-            f"allowed: 0 to {scenario.simulation.duration:g} s",
-        )
+    except (RunDataError, ValueError) as error:
+        return fail(NAME, str(error))
+    except OSError as error:
+        return fail(NAME, f"cannot write the pictures: {error}")
+    if arguments.times is None and not arguments.video:
+        arguments.times = [0.5 * (first + last)]
     # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
     from deformable_manipulation.ros.program import ProgramError
 
     with interruptible():
         try:
-            _take_all(scenario, times, arguments)
+            _make(source, arguments)
         except ProgramError as error:
             return fail(NAME, str(error))
         except OSError as error:
@@ -63,95 +47,59 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     return 0
 
 
-def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    add_scenario_arguments(parser)
-    parser.add_argument(
-        "--times",
-        type=times_of,
-        metavar="SECONDS",
-        help="when to take pictures, separated by commas (default: half of the duration)",
-    )
-    parser.add_argument(
-        "--output", metavar="DIR", type=Path, default=Path("."), help="folder (default: this one)"
-    )
-    parser.add_argument(
-        "--size",
-        type=size_of,
-        default=(1280, 800),
-        metavar="WIDTHxHEIGHT",
-        help="of the pictures, in pixels (default: 1280x800)",
-    )
-    parser.add_argument("--view", metavar="NAME", help="a saved view of the RViz configuration")
-    parser.add_argument(
-        "--config",
-        metavar="FILE",
-        type=Path,
-        help="RViz configuration (default: that of the scenario, "
-        f"or of {DEFAULT_CONFIGURATION} where it has none)",
-    )
-    parser.add_argument(
-        "--timeout",
-        type=float,
-        default=60.0,
-        metavar="SECONDS",
-        help="how long to wait for each picture (default: 60)",
-    )
-    return parser.parse_args(argv)
+def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
+    """What would be told only after the run otherwise. Raises ValueError, OSError."""
+    first, last = source.time_range
+    if arguments.times is not None:
+        arguments.times = sorted(set(arguments.times))
+        if arguments.times[0] < first - 1e-9 or arguments.times[-1] > last + 1e-9:
+            wrong = arguments.times[-1] if arguments.times[-1] > last else arguments.times[0]
+            place = "after the end" if wrong > last else "before the start"
+            what = "scenario" if source.frames is None else "run"
+            raise ValueError(
+                f"--times: {wrong:g} s is {place} of the {what}; allowed: {first:g} to {last:g} s"
+            )
+    if arguments.video:
+        if source.frames is None:
+            raise ValueError(
+                "--video: films recorded runs; record it first: "
+                f"run_scenario {arguments.source} --output DIR, then rviz_snapshot DIR --video ..."
+            )
+        writable_folder(arguments.video.parent)
+    elif arguments.speed is not None:
+        raise ValueError("--speed: is that of --video FILE.mp4, which is not given")
+    if arguments.times is not None or not arguments.video:
+        writable_folder(arguments.output)
 
 
-def size_of(text: str) -> Tuple[int, int]:
-    """Width and height in pixels; raises argparse.ArgumentTypeError where it is something else."""
-    numbers = text.lower().split("x")
-    if len(numbers) != 2 or not all(
-        number.isdecimal() and LEAST_SIZE <= int(number) <= LARGEST_SIZE for number in numbers
-    ):
-        raise argparse.ArgumentTypeError(
-            f"'{text}' is no size: two numbers of {LEAST_SIZE} to {LARGEST_SIZE}, as in 1280x800"
-        )
-    return int(numbers[0]), int(numbers[1])
-
-
-def picture_name(scenario: str, time: float) -> str:
-    """The file name of a picture, such as ``rope_t060.png`` or ``rope_t007.25.png``."""
-    whole, _, fraction = f"{time:.3f}".partition(".")
-    fraction = fraction.rstrip("0")
-    return "{}_t{:0>3}{}.png".format(scenario, whole, "." + fraction if fraction else "")
-
-
-def configuration_path(scenario: str) -> Path:
-    """The scenario's RViz configuration, or that of the first scenario where it has none."""
-    folder = package_share_directory() / "rviz"
-    path = folder / f"{scenario}.rviz"
-    return path if path.is_file() else folder / f"{DEFAULT_CONFIGURATION}.rviz"
-
-
-def _take_all(scenario: Scenario, times: Sequence[float], arguments: argparse.Namespace) -> None:
-    from deformable_manipulation.ros.picture import save_png
+def _configuration(source: SnapshotSource, arguments: argparse.Namespace) -> dict:
+    """RViz's configuration, as of YAML. Raises ProgramError."""
     from deformable_manipulation.ros.rviz_view import read_configuration
+    from deformable_manipulation.ros.scene_view import fitted, plane_of
+
+    path = arguments.config or own_configuration(source.scenario, source.file)
+    if path is not None:
+        return read_configuration(path, arguments.view, arguments.size)
+    other = rviz_configuration(source.file, source.scenario)
+    configuration = read_configuration(other, arguments.view, arguments.size)
+    plane = plane_of(source.scenario)
+    return fitted(configuration, source.bounds(), arguments.size, plane)
+
+
+def _make(source: SnapshotSource, arguments: argparse.Namespace) -> None:
+    from deformable_manipulation.commands.snapshot_pictures import SnapshotPictures
     from deformable_manipulation.ros.snapshot_studio import snapshot_studio
+    from deformable_manipulation.ros.video_file import require_ffmpeg
 
-    source = arguments.config or configuration_path(scenario.name)
-    configuration = read_configuration(source, arguments.view, arguments.size)
-    progress = ProgressDisplay(sys.stderr)
+    if arguments.video:
+        require_ffmpeg()
+    configuration = _configuration(source, arguments)
+    leader = source.scenario.agents[source.scenario.leader_index].name
     with tempfile.TemporaryDirectory(prefix=NAME + "_") as directory:
-        with snapshot_studio(scenario, configuration, arguments.size, directory) as studio:
-            for time in times:
-                print(f"{NAME}: running to {time:g} s", file=sys.stderr)
-                try:
-                    studio.go_to(time, progress)
-                finally:
-                    progress.close()
-                print(f"{NAME}: taking the picture", file=sys.stderr)
-                path = arguments.output / picture_name(scenario.name, time)
-                save_png(studio.take(arguments.timeout), path, f"{scenario.name} at {time:g} s")
-                print(path, flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+        open_run = partial(source.open, directory)
+        with snapshot_studio(open_run, leader, arguments.size, directory) as studio:
+            pictures = SnapshotPictures(source, studio, configuration, arguments)
+            if arguments.times:
+                pictures.take(arguments.times, arguments.layout)
+            if arguments.video:
+                pictures.film(arguments.video, arguments.speed)

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 from typing import Dict, Optional, Sequence
 
+from deformable_manipulation.commands.arguments import folder_name
 from deformable_manipulation.interruption import exit_status, interruptible
 
 NAME = "validate"
@@ -22,6 +23,7 @@ CASE_NAMES = (
     "motion",
     "wrenches",
     "fabrics",
+    "fabric_gradients",
 )
 DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory:
 shapes, reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
@@ -70,7 +72,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--output",
         metavar="DIR",
-        type=Path,
+        type=folder_name,
         help="folder of the page (default: docs; output/validation for --quick and --case)",
     )
     parser.add_argument(
@@ -113,7 +115,3 @@ def _write(results, folder: Path) -> Path:
     path = folder / PAGE
     path.write_text(report(results, links), encoding="utf-8")
     return path
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -24,6 +24,8 @@ class Observation:
     displacements: np.ndarray  # (C, 3) m, present displacement of that held point
     ready: np.ndarray  # (C,) bool, false while a copy still moves to its displacement
     distances: Distances  # of all C copies
+    # (A, 3) m/s, of the held points; None: to be found from the positions
+    velocities: Optional[np.ndarray] = None
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
 

@@ -1,5 +1,7 @@
 """The native controller's parameters from a scenario."""
 
+from itertools import combinations
+
 import numpy as np
 
 from deformable_manipulation import _control
@@ -7,34 +9,31 @@ from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.scenario import pair_limits
 
 
-def native_parameters(scenario, agent, safety):
-    """What ``_control.AssistantController`` is made of.
+def native_parameters(scenario, names, safety):
+    """What ``_control.TeamController`` is made of.
 
     Args:
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
-        agent: name of the assistant.
+        names: of the assistants that it commands.
         safety: False leaves the barriers out.
 
     Raises:
-        ValueError: the scenario has no assistant of that name, or the solver is not installed.
+        ValueError: the scenario has no assistant of a name, or the solver is not installed.
     """
     settings = scenario.controller
-    index, leader = _index_of(scenario, agent), scenario.leader_index
+    commanded, leader = [_index_of(scenario, name) for name in names], scenario.leader_index
     starts = np.array([each.start for each in scenario.agents], dtype=float)
-    limits = [
-        pair_limits(scenario, index, other) if other != index else None
-        for other in range(len(starts))
-    ]
     return {
-        "agent": index,
+        "commanded": commanded,
         "leader": leader,
         "assistants": list(scenario.assistants),
-        "reference": starts[index] - starts[leader],
+        "references": list(starts[commanded] - starts[leader]),
         "cycle_time": scenario.cycle_time,
         "gain": settings.gain,
         "weights": settings.weights,
         "max_velocity": settings.max_velocity,
         "max_acceleration": settings.max_acceleration,
+        "smoothing": settings.smoothing,
         "timeout": settings.timeout,
         "exact_gradients": settings.jacobian == "equilibrium",
         "safety": safety,
@@ -49,8 +48,8 @@ def native_parameters(scenario, agent, safety):
             "alpha": settings.collision.alpha,
             "anticipation": settings.collision.anticipation,
         },
-        "overstretch": _pair(settings.overstretch, limits, "max_distance"),
-        "proximity": _pair(settings.proximity, limits, "min_distance"),
+        "overstretch": _pair(settings.overstretch, scenario, "max_distance"),
+        "proximity": _pair(settings.proximity, scenario, "min_distance"),
     }
 
 
@@ -64,9 +63,12 @@ def _formulation(settings):
     return formulation
 
 
-def _pair(settings, limits, name):
+def _pair(settings, scenario, name):
+    limits = np.zeros((len(scenario.agents), len(scenario.agents)))
+    for i, j in combinations(range(len(limits)), 2):
+        limits[i, j] = limits[j, i] = getattr(pair_limits(scenario, i, j), name)
     return {
-        "limits": [getattr(limit, name) if limit else 0.0 for limit in limits],
+        "limits": limits,
         "margin": settings.margin,
         "alpha": settings.alpha,
     }

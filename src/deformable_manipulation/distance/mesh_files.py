@@ -1,6 +1,7 @@
 """Triangle meshes: reading them from files."""
 
 import io
+import re
 from pathlib import Path
 from typing import Tuple
 
@@ -10,7 +11,9 @@ from deformable_manipulation.text_files import TextFileError, read_bytes
 
 LARGEST_COORDINATE = 1e6  # m
 LARGEST_FILE = 1_000_000_000  # bytes, some million triangles in the most verbose format
+FORMATS = "OBJ, PLY, STL, OFF, glTF and GLB"
 _SETTINGS = dict(process=False, maintain_order=True, skip_materials=True)
+_ZERO = re.compile(rb"[ \t]0+(?=[/\s]|$)")
 
 
 class MeshError(ValueError):
@@ -60,15 +63,32 @@ def _parsed(path, data: bytes) -> Tuple[np.ndarray, np.ndarray]:
         raise MeshError("{}: meshes need the Python package trimesh".format(path)) from error
     suffix = Path(str(path)).suffix.lower().lstrip(".")
     if suffix not in trimesh.available_formats():
-        raise MeshError("{}: '{}' is no format of meshes that Trimesh reads".format(path, suffix))
+        raise MeshError(
+            "{}: '{}' is no format of meshes that can be read; formats allowed: {}".format(
+                path, suffix, FORMATS
+            )
+        )
+    if suffix == "obj" and _has_face_of_vertex_0(data):
+        raise MeshError("{}: a face names vertex 0; OBJ counts vertices from 1".format(path))
     resolver = trimesh.resolvers.FilePathResolver(str(path))
     try:
         scene = trimesh.load_scene(io.BytesIO(data), suffix, resolver=resolver, **_SETTINGS)
         mesh = scene.to_mesh()
         return mesh.vertices, mesh.faces
     except Exception as error:  # whatever the parser of this format stumbles over
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise MeshError("{} is no mesh that can be read: {}".format(path, reason)) from error
+        raise MeshError(
+            "{} is no mesh that can be read: it is broken, or no {} file; formats allowed: "
+            "{}".format(path, suffix.upper(), FORMATS)
+        ) from error
+
+
+def _has_face_of_vertex_0(data: bytes) -> bool:
+    """Whether a face of an OBJ file names vertex 0, which Trimesh takes for the last one."""
+    for zero in _ZERO.finditer(data):
+        line = data[data.rfind(b"\n", 0, zero.start()) + 1 : zero.start()]
+        if line.split(None, 1)[:1] == [b"f"] and b"#" not in line:
+            return True
+    return False
 
 
 def _fault(vertices: np.ndarray, triangles: np.ndarray) -> str:

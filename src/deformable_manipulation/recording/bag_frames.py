@@ -10,6 +10,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from deformable_manipulation.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording.bag_index import DAMAGED, open_bag
+from deformable_manipulation.recording.bag_run_info import TOPIC, connections_of, read_run_info
 from deformable_manipulation.recording.bag_track import DISTANCES
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunDataError
@@ -17,43 +18,38 @@ from deformable_manipulation.scenario import ScenarioError, scenario_from_mappin
 from deformable_manipulation.scenario.spec import FabricSpec, Scenario
 
 OBJECT_STATE = "deformable_manipulation/msg/ObjectState"
-STRING = "std_msgs/msg/String"
-_RUN_INFO = "run_info"
 
 
-def read_bag_frames(path: Path) -> Frames:
+def read_bag_frames(path: Path, namespace: str = "") -> Frames:
     """The frames of the last run in a bag that was recorded with ``record:=true``.
 
     Raises RunDataError: the bag is damaged, or has no states or no description of the run.
     """
     with open_bag(path) as (reader, _):
         try:
-            scenario = _read_scenario(path, reader)
-            return _read_states(path, reader, scenario)
+            scenario = _read_scenario(path, reader, namespace)
+            return _read_states(path, reader, scenario, namespace)
         except DAMAGED as error:
             raise RunDataError(f"{path} is damaged: {error}") from error
 
 
-def _read_scenario(path: Path, reader: Reader) -> Scenario:
-    types = get_typestore(Stores.ROS1_NOETIC)
-    for connection, _, data in reader.messages(_connections(reader, STRING)):
-        # Recorded by a relative name, a topic has no slash.
-        if connection.topic.rpartition("/")[2] == _RUN_INFO:
-            text = types.deserialize_ros1(data, STRING).data
-            try:
-                return scenario_from_mapping(yaml.safe_load(text)["scenario"], path.parent)
-            except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
-                raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
+def _read_scenario(path: Path, reader: Reader, namespace: str) -> Scenario:
+    try:
+        info = read_run_info(reader, namespace)
+        if info is not None:
+            return scenario_from_mapping(info["scenario"], path.parent)
+    except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
+        raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
     raise RunDataError(
-        f"{path} holds no {_RUN_INFO}, which tells its scenario; record with record:=true"
+        f"{path} holds no {TOPIC}, which tells its scenario; record with record:=true"
     )
 
 
-def _read_states(path: Path, reader: Reader, scenario: Scenario) -> Frames:
-    if not _connections(reader, OBJECT_STATE):
+def _read_states(path: Path, reader: Reader, scenario: Scenario, namespace: str) -> Frames:
+    if not connections_of(reader, OBJECT_STATE, namespace):
         raise RunDataError(f"{path} holds no states of the object; record the topic state")
     every = max(1, round(scenario.controller.rate / scenario.simulation.record_rate))
-    states = _messages(reader, OBJECT_STATE)
+    states = _messages(reader, OBJECT_STATE, namespace)
     frames = _of_last_run(states, every, lambda state: _frame(state, scenario))
     if not frames:
         raise RunDataError(f"{path} holds no state of the object")
@@ -66,7 +62,7 @@ def _read_states(path: Path, reader: Reader, scenario: Scenario) -> Frames:
         np.stack(points),
         np.stack(agents),
         None if faces is None else np.array(faces),
-        _read_obstacles(reader, scenario, cycles, every),
+        _read_obstacles(reader, scenario, namespace, cycles, every),
     )
 
 
@@ -83,7 +79,7 @@ def _of_last_run(messages, every: int, read: Callable) -> dict:
     return found
 
 
-def _read_obstacles(reader: Reader, scenario: Scenario, cycles, every: int):
+def _read_obstacles(reader: Reader, scenario: Scenario, namespace: str, cycles, every: int):
     """Poses (F, K, 7) of the moving obstacles; None where none moves or nothing tells.
 
     A cycle without distances has the poses of the one before.
@@ -92,7 +88,7 @@ def _read_obstacles(reader: Reader, scenario: Scenario, cycles, every: int):
     if not moving:
         return None
     poses = _of_last_run(
-        _messages(reader, DISTANCES),
+        _messages(reader, DISTANCES, namespace),
         every,
         lambda distances: np.asarray(distances.obstacle_poses).reshape(moving, 7),
     )
@@ -111,15 +107,11 @@ def _frame(state, scenario: Scenario):
     return points.astype(np.float32), positions[order].astype(np.float32)
 
 
-def _messages(reader: Reader, msgtype: str):
+def _messages(reader: Reader, msgtype: str, namespace: str):
     """The messages of the first topic of a type."""
-    connections = _connections(reader, msgtype)[:1]
+    connections = connections_of(reader, msgtype, namespace)[:1]
     if connections:
         types = get_typestore(Stores.ROS1_NOETIC)
         types.register(get_types_from_msg(connections[0].msgdef.data, msgtype))
         for _, _, data in reader.messages(connections):
             yield types.deserialize_ros1(data, msgtype)
-
-
-def _connections(reader: Reader, msgtype: str):
-    return [connection for connection in reader.connections if connection.msgtype == msgtype]

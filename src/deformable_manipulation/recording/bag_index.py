@@ -13,6 +13,7 @@ from rosbags.serde import SerdeError
 from rosbags.typesys import TypesysError
 
 from deformable_manipulation.recording.run_data import RunDataError
+from deformable_manipulation.text_files import TextFileError, read_start
 
 MAGIC = b"#ROSBAG V2.0\n"
 RECOVERED = "the recorder had not finished this bag; read from a repaired copy"
@@ -48,10 +49,9 @@ def open_bag(path: Path) -> Iterator[Tuple[Reader, Tuple[str, ...]]]:
 
 def _check_magic(path: Path) -> None:
     try:
-        with open(str(path), "rb") as file:
-            start = file.read(len(MAGIC))
-    except OSError as error:
-        raise RunDataError(f"{path} cannot be read: {error.strerror}") from error
+        start = read_start(path, len(MAGIC))
+    except TextFileError as error:
+        raise RunDataError(f"{path} {error}") from error
     if not start:
         raise RunDataError(f"{path} is empty: nothing was recorded")
     if start != MAGIC:

@@ -1,11 +1,14 @@
 """Reads a run from a bag, without ROS: the messages' definitions come from the bag itself."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Dict, List, Optional, Tuple
 
+import yaml
 from rosbags.rosbag1 import Reader
 
 from deformable_manipulation.recording.bag_index import DAMAGED, open_bag
+from deformable_manipulation.recording.bag_run_info import namespace_of, read_run_info
 from deformable_manipulation.recording.bag_track import (
     CONTROLLER_STATE,
     DISTANCES,
@@ -32,6 +35,8 @@ def read_bag(path: Path, namespace: Optional[str] = None) -> RunData:
         try:
             topics = _topics_of_run(path, reader, namespace)
             tracks = [read_track(reader, topic) for topic in topics]
+            chosen = namespace_of(namespace_of(topics[-1]))
+            scenario = _scenario_name(reader, chosen)
         except DAMAGED as error:
             raise RunDataError(f"{path} is damaged: {error}") from error
     present = [track for track in tracks if track is not None]
@@ -39,7 +44,16 @@ def read_bag(path: Path, namespace: Optional[str] = None) -> RunData:
     if not controllers:
         raise RunDataError(f"{path}: no controller has published a state")
     distances = next((track for track in present if not track.agent), controllers[0])
-    return _assemble(path, distances, controllers, notes)
+    run = _assemble(path, distances, controllers, notes)
+    return replace(run, scenario=scenario, namespace=chosen)
+
+
+def _scenario_name(reader: Reader, namespace: str) -> str:
+    """The name of the scenario; empty where it is not told, or not in a way that can be read."""
+    try:
+        return str(read_run_info(reader, namespace)["scenario"]["name"])
+    except (yaml.YAMLError, KeyError, TypeError):
+        return ""
 
 
 def _topics_of_run(path: Path, reader: Reader, namespace: Optional[str]) -> List[str]:
@@ -49,7 +63,7 @@ def _topics_of_run(path: Path, reader: Reader, namespace: Optional[str]) -> List
     for topic, msgtype in sorted(types.items()):
         if msgtype == CONTROLLER_STATE:
             # <namespace>/<agent>/controller_state
-            controllers.setdefault(_parent(_parent(topic)), []).append(topic)
+            controllers.setdefault(namespace_of(namespace_of(topic)), []).append(topic)
     if not controllers:
         content = [f"{topic} ({types[topic]})" for topic in sorted(types)]
         raise RunDataError(
@@ -62,7 +76,7 @@ def _topics_of_run(path: Path, reader: Reader, namespace: Optional[str]) -> List
     distances = [
         topic
         for topic, msgtype in sorted(types.items())
-        if msgtype == DISTANCES and _parent(topic) == chosen
+        if msgtype == DISTANCES and namespace_of(topic) == chosen
     ]
     return distances[:1] + controllers[chosen]
 
@@ -79,10 +93,6 @@ def _choose_namespace(path: Path, present: List[str], wanted: Optional[str]) -> 
         if name.strip("/") == wanted.strip("/"):
             return name
     raise RunDataError(f"{path} holds no namespace {wanted}, but: {names}")
-
-
-def _parent(topic: str) -> str:
-    return topic.rpartition("/")[0]
 
 
 def _assemble(

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Dict, List, Tuple
 
 import numpy as np
+import yaml
 
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import (
@@ -16,6 +17,7 @@ from deformable_manipulation.recording.run_data import (
     offset_of,
 )
 from deformable_manipulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
+from deformable_manipulation.text_files import TextFileError, read_text
 
 STATUS_SUFFIX = ".status"  # only assistants have a status
 
@@ -33,6 +35,7 @@ def read_folder(folder: Path) -> RunData:
     # Folders of earlier versions have no stretch.
     recorded_stretch = [name for name in ("stretch",) if name in header]
     columns = _select_columns(path, header, rows, wanted + recorded_stretch)
+    summary = _read_summary(folder / run_files.SUMMARY)
     assistants = tuple(
         make_assistant_series(
             agent,
@@ -50,17 +53,34 @@ def read_folder(folder: Path) -> RunData:
         offset=offset_of(assistants),
         assistants=assistants,
         max_stretch=largest_stretch(columns.get("stretch", np.empty(0))),
-        valid_stretch=_read_valid_stretch(folder / run_files.SUMMARY),
+        valid_stretch=_valid_stretch(summary),
+        scenario=_scenario_name(summary, folder / run_files.SCENARIO),
     )
 
 
-def _read_valid_stretch(path: Path) -> float:
-    """From the summary; what holds for rods where it is not told, as by earlier versions."""
+def _read_summary(path: Path) -> dict:
+    """The summary; empty where there is none, as of a run that was killed."""
     try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
+        summary = json.loads(read_text(path))
+    except ValueError:  # also a TextFileError
+        return {}
+    return summary if isinstance(summary, dict) else {}
+
+
+def _valid_stretch(summary: dict) -> float:
+    """What holds for rods where it is not told, as by earlier versions."""
+    try:
         return float(summary["valid_stretch"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (KeyError, ValueError, TypeError):
         return LARGEST_VALID_STRETCH
+
+
+def _scenario_name(summary: dict, path: Path) -> str:
+    """From the summary, or else the scenario's file; empty where neither tells it."""
+    try:
+        return str(summary.get("scenario") or yaml.safe_load(read_text(path))["name"])
+    except (TextFileError, yaml.YAMLError, KeyError, TypeError):
+        return ""
 
 
 def _read_rows(path: Path) -> Tuple[List[str], List[List[str]]]:

@@ -4,7 +4,7 @@ import os
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Optional, Tuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import RunData, RunDataError
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.text_files import open_regular
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,18 @@ class Frames:
             return self.scenario.obstacles
         return placed_obstacles(self.scenario, self.obstacles[frame])
 
+    def between(self, time: float) -> Tuple[np.ndarray, np.ndarray]:
+        """Points (P, 3) and held points (A, 3) [m] at a time [s], linear between frames."""
+        after = int(np.clip(np.searchsorted(self.times, time), 1, max(len(self.times) - 1, 1)))
+        after = min(after, len(self.times) - 1)
+        before = max(after - 1, 0)
+        span = float(self.times[after] - self.times[before])
+        share = min(max((time - float(self.times[before])) / span, 0.0), 1.0) if span else 0.0
+        return tuple(
+            (1.0 - share) * values[before].astype(float) + share * values[after].astype(float)
+            for values in (self.points, self.agents)
+        )
+
 
 def read_frames(run: RunData) -> Frames:
     """The frames of a run that was read by :func:`~.run_data.read_run`.
@@ -47,7 +60,7 @@ def read_frames(run: RunData) -> Frames:
     # Imported late: needs the bag's library.
     from deformable_manipulation.recording.bag_frames import read_bag_frames
 
-    return read_bag_frames(run.path)
+    return read_bag_frames(run.path, run.namespace)
 
 
 def _read_folder(folder: Path) -> Frames:
@@ -55,7 +68,7 @@ def _read_folder(folder: Path) -> Frames:
     if not os.path.exists(str(path)):
         raise RunDataError(f"{folder} holds no {run_files.STATES}: there are no shapes to draw")
     try:
-        with np.load(str(path)) as states:
+        with open_regular(path) as file, np.load(file) as states:
             arrays = {name: states[name] for name in states.files}
         times, points, agents = (arrays[name] for name in ("times", "points", "agents"))
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:

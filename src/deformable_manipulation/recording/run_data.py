@@ -3,7 +3,7 @@
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping, Optional, Tuple
+from typing import List, Mapping, Optional, Tuple
 
 import numpy as np
 
@@ -31,6 +31,7 @@ class AssistantSeries:
     h_proximity: np.ndarray  # (M,) m
     nominal_velocity: np.ndarray  # (M, 3) m/s
     command: np.ndarray  # (M, 3) m/s
+    target: np.ndarray  # (M, 3) m, the place that it would keep
     status: np.ndarray  # (M,) int, the constants of ControllerState
 
 
@@ -47,6 +48,16 @@ class RunData:
     max_stretch: Optional[float] = None  # largest relative change of length; None: not recorded
     valid_stretch: float = LARGEST_VALID_STRETCH  # of an object in use; beyond it nothing is valid
     notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
+    scenario: str = ""  # its name; empty: not recorded
+    namespace: str = ""  # of its topics in a bag, such as /left
+
+    @property
+    def time_range(self) -> Tuple[float, float]:
+        """From the first cycle to the end of the last one [s]; one second of a single cycle."""
+        start, last = float(self.time[0]), float(self.time[-1])
+        if last == start:
+            return start, start + 1.0
+        return start, round(last + (last - start) / (len(self.time) - 1), 6)
 
 
 def read_run(path, namespace: Optional[str] = None) -> RunData:
@@ -92,6 +103,7 @@ def make_assistant_series(
         h_proximity=columns["h_proximity"],
         nominal_velocity=_stack(columns, "nominal_velocity"),
         command=_stack(columns, "command"),
+        target=_stack(columns, "target"),
         status=status.astype(int),
     )
 
@@ -101,6 +113,7 @@ SERIES_COLUMNS = (
     ("error_norm", "h_collision", "h_overstretch", "h_proximity", "status")
     + vector_columns("nominal_velocity")
     + vector_columns("command")
+    + vector_columns("target")
 )
 
 
@@ -112,8 +125,17 @@ def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
     return float(np.median(finite)) if finite.size else None
 
 
+def holds_run(folder: Path) -> bool:
+    """Whether a folder has what read_run reads in it, or several of it."""
+    return (folder / run_files.TIMESERIES).exists() or bool(_bags(folder))
+
+
+def _bags(folder: Path) -> List[Path]:
+    return sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
+
+
 def _only_bag(folder: Path) -> Path:
-    bags = sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
+    bags = _bags(folder)
     if not bags:
         raise RunDataError(f"{folder} holds neither {run_files.TIMESERIES} nor a bag")
     if len(bags) > 1:

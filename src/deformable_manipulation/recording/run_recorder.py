@@ -39,9 +39,7 @@ class RunRecorder:
         self.directory = Path(directory)
         self._scenario = scenario
         self._safety = safety
-        names = tuple(agent.name for agent in scenario.agents)
-        assistants = tuple(names[index] for index in scenario.assistants)
-        self._series = TimeSeries(names, assistants, rows=scenario.cycles + 1)
+        self._series = TimeSeries.of(scenario)
         self._frames = []  # (time, points, agents, obstacles); one append each, never half a frame
         self._last_frame = -1
         self._frames_per_cycle = scenario.simulation.record_rate, scenario.controller.rate

@@ -7,6 +7,7 @@ from typing import IO, List, Mapping, NamedTuple, Tuple
 import numpy as np
 
 from deformable_manipulation.control.decision import Decision
+from deformable_manipulation.scenario.spec import Scenario
 
 AXES = ("x", "y", "z")
 INITIAL_ROWS = 1 << 14
@@ -64,6 +65,13 @@ class CycleRecord:
 
 class TimeSeries:
     """Rows of a run in memory: appended in some microseconds, written as CSV at the end."""
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> "TimeSeries":
+        """An empty table for a run of a scenario."""
+        names = tuple(agent.name for agent in scenario.agents)
+        assistants = tuple(names[index] for index in scenario.assistants)
+        return cls(names, assistants, rows=scenario.cycles)
 
     def __init__(self, agents: Tuple[str, ...], assistants: Tuple[str, ...], rows: int = 0):
         """``agents`` in the order of the arrays of a CycleRecord; ``rows`` expected."""

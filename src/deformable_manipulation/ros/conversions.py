@@ -66,20 +66,9 @@ def to_observation(state, distances, scenario) -> Observation:
         displacements=_reshaped(state.displacements, "displacements", (copies, 3)),
         ready=_flags(state.copy_ready, "copy_ready", copies),
         distances=distances,
+        velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
     )
-
-
-def usable_distances(message, scenario) -> Distances:
-    """The core's Distances of a ``Distances`` message.
-
-    Raises MessageError: another frame, an array's size does not fit, or it says itself that they
-    are not known.
-    """
-    require_frame("distances", message, scenario)
-    if message.fault:
-        raise MessageError(message.fault)
-    return to_distances(message)
 
 
 def require_frame(name, message, scenario):
@@ -88,6 +77,14 @@ def require_frame(name, message, scenario):
         raise MessageError(
             f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
         )
+
+
+def _measured_velocities(state, order):
+    """(A, 3) [m/s] in the scenario's order, or None. Raises MessageError."""
+    if not len(state.measured_velocities):
+        return None
+    shape = (len(state.agents), 3)
+    return _reshaped(state.measured_velocities, "measured_velocities", shape)[order]
 
 
 def _sensitivities(state, order):
@@ -101,8 +98,10 @@ def _sensitivities(state, order):
 def to_distances(message) -> Distances:
     """The core's result from a ``Distances`` message.
 
-    Raises MessageError: an array's size does not fit.
+    Raises MessageError: an array's size does not fit, or the message tells a fault.
     """
+    if message.fault:
+        raise MessageError(message.fault)
     features = len(message.feature_distances)
     vectors = (features, 3)
     return Distances(

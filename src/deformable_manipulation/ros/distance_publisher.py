@@ -1,14 +1,14 @@
 """The distances between the object, with all its copies, and the obstacles under ROS."""
 
 import time
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import rospy
 from rospy.numpy_msg import numpy_msg
 
 from deformable_manipulation.closed_loop import make_minimum_distance
-from deformable_manipulation.distance.features import Distances as Features
+from deformable_manipulation.distance.features import Distances as DistanceFeatures
 from deformable_manipulation.msg import Distances
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import MessageError, fill_distances, points_of
@@ -21,24 +21,24 @@ from deformable_manipulation.ros.obstacle_tracker import ObstacleTracker
 from deformable_manipulation.ros.overrun_report import age_of
 
 
-@dataclass(frozen=True)
-class Measured:
-    """The distances of one state."""
+class Computed(NamedTuple):
+    """The distances of a state."""
 
-    distances: Features
+    distances: DistanceFeatures  # of the core
     poses: np.ndarray  # (K, 7) of the moving obstacles
-    fault: str  # a clause that says why the distances are not known; empty: they are
     computation_time: float  # s
+    fault: str  # why they are not known, as a clause; empty where they are
 
-    def usable(self):
-        """The distances. Raises MessageError: they are not known."""
-        if self.fault:
-            raise MessageError(self.fault)
-        return self.distances
+
+def known_distances(computed):
+    """The core's Distances of what was computed. Raises MessageError where they are not known."""
+    if computed.fault:
+        raise MessageError(computed.fault)
+    return computed.distances
 
 
 class DistancePublisher:
-    """Measures distances of states, publishes and draws them; which node it is in does not matter.
+    """Computes distances of states, publishes and draws them; which node it is in does not matter.
 
     Reads the node's parameters ``~lockstep`` and ``~tf_prefix``. Leaves the process with a message
     if the obstacles cannot be used.
@@ -48,21 +48,21 @@ class DistancePublisher:
     """
 
     def __init__(self, scenario):
-        tf_prefix = rospy.get_param("~tf_prefix", "")
+        prefix = rospy.get_param("~tf_prefix", "")
         try:
             self._distance = make_minimum_distance(scenario)
-            markers = obstacle_markers(scenario.obstacles, scenario.frame, tf_prefix=tf_prefix)
+            obstacles = obstacle_markers(scenario.obstacles, scenario.frame, tf_prefix=prefix)
         except ValueError as error:  # a file has gone or changed since the scenario was checked
             node.refuse(f"The obstacles cannot be used: {error}")
         for warning in self._distance.warnings:
             rospy.logwarn(warning)
         self._obstacles = ObstacleTracker(scenario)
-        self._frames = ObstacleFrames(scenario, tf_prefix)
+        self._frames = ObstacleFrames(scenario, prefix)
         self._latch = rospy.get_param("~lockstep", False)
         self._publisher = rospy.Publisher(
             "distances", numpy_msg(Distances), queue_size=node.QUEUE_SIZE, latch=self._latch
         )
-        self._markers = MarkerPublisher(self._draw, lambda: markers)
+        self._markers = MarkerPublisher(self._draw, lambda: obstacles)
         self._cycles = cycle_monitor(scenario)
         self._fault = ""  # of the newest state
         publish_diagnostics(
@@ -70,44 +70,42 @@ class DistancePublisher:
         )
         node.await_subscribers(self._publisher)
 
-    def measure(self, state):
-        """The Measured distances of an ObjectState. Raises MessageError: it cannot be used."""
+    def compute(self, state):
+        """What is known about the distances of an ObjectState.
+
+        Raises MessageError: its points cannot be used.
+        """
         try:
-            return self._measure(state)
+            return self._compute(state)
         except MessageError as error:
             self._cycles.failed(f"State {state.cycle} cannot be used: {error}.")
             raise
 
-    def _measure(self, state):
+    def _compute(self, state):
         started = time.perf_counter()
         points = points_of(state)
+        self._fault = fault = self._obstacles.move(self._distance, state)
         try:
-            self._fault = fault = self._obstacles.move(self._distance, state)
             if fault:
-                distances = Features.unknown(len(points), self._distance.names)
+                distances = DistanceFeatures.unknown(len(points), self._distance.names)
             else:
                 distances = self._distance.compute(points)
         except ValueError as error:
             raise MessageError(f"points: {error}") from error
         elapsed = time.perf_counter() - started
         self._cycles.answered(elapsed, age_of(state))
-        return Measured(distances, self._obstacles.poses(), fault, elapsed)
+        return Computed(distances, self._obstacles.poses(), elapsed, fault)
 
-    def publish(self, state, measured):
-        """Publish and draw what :meth:`measure` gave for a state."""
+    def publish(self, state, computed):
+        """Publish and draw what :meth:`compute` gave for a state."""
         if self._latch or self._publisher.get_num_connections():
+            distances, poses, elapsed, fault = computed
             self._publisher.publish(
                 fill_distances(
-                    Distances(),
-                    state,
-                    measured.distances,
-                    measured.computation_time,
-                    self._obstacles.names,
-                    measured.poses,
-                    measured.fault,
+                    Distances(), state, distances, elapsed, self._obstacles.names, poses, fault
                 )
             )
-        self._markers.show(measured.distances, state.header, measured.poses)
+        self._markers.show(computed.distances, state.header, computed.poses)
 
     def _draw(self, distances, header, poses):
         self._frames.send(header, poses)

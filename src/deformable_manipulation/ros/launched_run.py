@@ -1,4 +1,4 @@
-"""How a run of a checked scenario is launched."""
+"""How a run of a checked scenario, or what draws a recorded one, is launched."""
 
 from pathlib import Path
 
@@ -16,15 +16,22 @@ def launch_command(scenario, directory, **options):
     Returns:
         Program and arguments.
     """
-    path = Path(directory) / (scenario.name + ".yaml")
-    path.write_text(scenario_to_yaml(scenario), encoding="utf-8")
-    options = {
-        "scenario": path,
+    defaults = {
         "assistants": " ".join(scenario.agents[index].name for index in scenario.assistants),
         "leader": scenario.agents[scenario.leader_index].name,
         "stop_at_end": "false",
-        "rviz": "false",
-        **options,
     }
-    launch_file = package_share_directory() / "launch" / "run.launch"
-    return ["roslaunch", str(launch_file), *(f"{name}:={value}" for name, value in options.items())]
+    return _roslaunch("run.launch", scenario, directory, {**defaults, **options})
+
+
+def playback_command(scenario, directory):
+    """The same for playback.launch, which draws the states that somebody publishes."""
+    return _roslaunch("playback.launch", scenario, directory, {})
+
+
+def _roslaunch(name, scenario, directory, options):
+    path = Path(directory) / (scenario.name + ".yaml")
+    path.write_text(scenario_to_yaml(scenario), encoding="utf-8")
+    options = {"scenario": path, "rviz": "false", **options}
+    launch_file = package_share_directory() / "launch" / name
+    return ["roslaunch", str(launch_file), *(f"{key}:={value}" for key, value in options.items())]

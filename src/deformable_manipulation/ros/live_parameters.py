@@ -20,6 +20,7 @@ KEYS = {
     "weight_z": ("weights", 2),
     "max_velocity": ("max_velocity",),
     "max_acceleration": ("max_acceleration",),
+    "smoothing": ("smoothing",),
     "collision_offset": ("collision", "offset"),
     "collision_margin": ("collision", "margin"),
     "collision_speed_margin": ("collision", "speed_margin"),
@@ -68,22 +69,22 @@ def changed(scenario, values):
 
 
 class LiveParameters:
-    """Offers a controller's parameters on ``<agent>/set_parameters``, first the scenario's values.
+    """Offers a controller's parameters on ``<name>/set_parameters``, first the scenario's values.
 
     Changes are checked together; those that do not go with each other, or with the object, are
     refused as a whole, with the reason in the parameter ``outcome`` and in the log.
 
     Args:
         scenario: the checked scenario.
-        agent: name of the assistant.
+        name: of the assistant, or of several under one controller.
         apply: called with a changed scenario; what it raises as ValueError refuses it, too.
     """
 
-    def __init__(self, scenario, agent, apply):
+    def __init__(self, scenario, name, apply):
         self._scenario = scenario
         self._apply = apply
         _widen_ranges(values_of(scenario))
-        self._server = Server(ControllerConfig, self._change, rospy.resolve_name(agent))
+        self._server = Server(ControllerConfig, self._change, rospy.resolve_name(name))
 
     def _change(self, config, level):
         present = values_of(self._scenario)

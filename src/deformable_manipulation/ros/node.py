@@ -104,6 +104,11 @@ def await_subscribers(publisher):
 def publish_last(publisher, message):
     """Publish at shutdown, and leave the message time to go out before the publisher is closed."""
     publisher.publish(message)
+    await_sending()
+
+
+def await_sending():
+    """Leave what was published at shutdown time to go out before the publishers are closed."""
     rospy.rostime.wallsleep(_SENDING_TIME)
 
 

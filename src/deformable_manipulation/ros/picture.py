@@ -31,11 +31,24 @@ class PictureAtRest:
     Args:
         look: gives the picture (height, width, 3) as it is now.
         clock: s, never decreasing.
+        shows: whether a picture shows what it is to show.
+        period: between looks [s].
+        same_looks: in a row, for a picture at rest.
     """
 
-    def __init__(self, look, clock=time.monotonic):
+    def __init__(
+        self,
+        look,
+        clock=time.monotonic,
+        shows=shows_scene,
+        period=_PERIOD,
+        same_looks=_SAME_LOOKS,
+    ):
         self._look = look
         self._clock = clock
+        self._shows = shows
+        self._period = period
+        self._same_looks = same_looks
         self._last_look = -np.inf
         self._same = 0
         self.picture = None
@@ -43,18 +56,18 @@ class PictureAtRest:
     def again(self):
         """Look again if it is time to; whether the picture shows something and is at rest."""
         now = self._clock()
-        if now - self._last_look < _PERIOD:
+        if now - self._last_look < self._period:
             return False
         self._last_look = now
         picture = self._look()
         same = self.picture is not None and np.array_equal(picture, self.picture)
         self._same = self._same + 1 if same else 1
         self.picture = picture
-        return self._same >= _SAME_LOOKS and shows_scene(picture)
+        return self._same >= self._same_looks and self._shows(picture)
 
     def complaint(self):
         """What is amiss with the last picture."""
-        if self.picture is None or not shows_scene(self.picture):
+        if self.picture is None or not self._shows(self.picture):
             return "nothing was rendered: the 3D view is blank"
         return "the picture did not come to rest"
 

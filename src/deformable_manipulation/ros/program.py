@@ -62,6 +62,11 @@ class Program:
         """Its process id."""
         return self._process.pid
 
+    @property
+    def exit_status(self):
+        """None while it runs; negative: the signal that ended it."""
+        return self._process.poll()
+
     def check(self):
         """Raise ProgramError, or ProgramCrashed, if the program has ended by itself."""
         status = self._process.poll()
@@ -78,8 +83,8 @@ class Program:
         printed = "\n  ".join([f"The last that {self.name} printed:"] + lines)
         return kind(f"{message}.\n{printed}" if lines else f"{message}.")
 
-    def wait_until(self, condition, timeout, complaint):
-        """Wait until ``condition()`` is true; its value.
+    def wait_until(self, condition, timeout, complaint, period=_POLLING_PERIOD):
+        """Wait until ``condition()`` is true, asking every ``period`` [s]; its value.
 
         Raises:
             ProgramError: the program ended, or ``timeout`` [s] went by; then it says
@@ -95,7 +100,7 @@ class Program:
             if time.monotonic() > deadline:
                 text = complaint() if callable(complaint) else complaint
                 raise self.error(f"after {timeout:g} s {text}")
-            time.sleep(_POLLING_PERIOD)
+            time.sleep(period)
 
     def stop(self):
         """End the program, by force if it does not heed the request."""

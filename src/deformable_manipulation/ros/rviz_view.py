@@ -14,22 +14,25 @@ from deformable_manipulation.text_files import TextFileError, read_text
 _NODE = "/snapshot_view"
 _HANDLES = "rviz/InteractiveMarkers"  # nobody drags anything in a picture
 _FRAME_RATE = 10  # Hz, what is still needs no more
+_MARKERS = "rviz/MarkerArray"
 
 
 def read_configuration(path, view, size):
-    """An RViz configuration file's content for a bare 3D view, as YAML.
+    """An RViz configuration file's content, for a bare 3D view.
 
     Args:
         path: the file.
         view: name of one of its saved views; None: the one that it shows.
         size: width and height in pixels.
 
+    Returns:
+        The configuration as of YAML.
+
     Raises:
         ProgramError: the file cannot be read or has no view of that name.
     """
     try:
-        configuration = yaml.safe_load(read_text(path))
-        return yaml.safe_dump(bare_view(configuration, view, size))
+        return bare_view(yaml.safe_load(read_text(path)), view, size)
     except TextFileError as error:
         raise ProgramError(f"{path} {error}") from error
     except (yaml.YAMLError, KeyError, TypeError) as error:
@@ -66,12 +69,28 @@ def bare_view(configuration, view, size):
     return result
 
 
+def with_frame_rate(configuration, rate):
+    """A copy of a configuration that is drawn at a rate [Hz]."""
+    result = copy.deepcopy(configuration)
+    result["Visualization Manager"]["Global Options"]["Frame Rate"] = rate
+    return result
+
+
+def without(configuration, namespaces):
+    """A copy of a configuration that does not show some of the markers."""
+    result = copy.deepcopy(configuration)
+    for display in result["Visualization Manager"]["Displays"]:
+        if display["Class"] == _MARKERS:
+            display["Namespaces"] = dict.fromkeys(namespaces, False)
+    return result
+
+
 @contextlib.contextmanager
 def rviz_view(configuration, display, directory):
     """RViz on a virtual display, for the time of a with statement.
 
     Args:
-        configuration: text of an RViz configuration.
+        configuration: an RViz configuration, as of YAML.
         display: VirtualDisplay.
         directory: existing folder for its files.
 
@@ -82,7 +101,7 @@ def rviz_view(configuration, display, directory):
         ProgramError: it does not start.
     """
     path = Path(directory) / "snapshot.rviz"
-    path.write_text(configuration, encoding="utf-8")
+    path.write_text(yaml.safe_dump(configuration), encoding="utf-8")
     environment = display.environment()
     # The user's list of recent files stays as it is.
     environment["HOME"] = environment["XDG_RUNTIME_DIR"] = str(directory)

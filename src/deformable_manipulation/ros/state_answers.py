@@ -4,13 +4,14 @@ import time
 
 import rospy
 
+from deformable_manipulation.control.team import teams
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.assistant import Assistant
 from deformable_manipulation.ros.conversions import MessageError, to_observation
 from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
 from deformable_manipulation.ros.health import input_report
 from deformable_manipulation.ros.input_watch import find_age_fault
 from deformable_manipulation.ros.overrun_report import OverrunReport, age_of
+from deformable_manipulation.ros.team import Team
 
 
 class StateAnswers:
@@ -30,8 +31,8 @@ class StateAnswers:
         self._overruns = OverrunReport(scenario.cycle_time)
         agents = rospy.get_param(parameter, "").split() or [""]
         try:
-            self._assistants = [
-                Assistant(scenario, agent, self._overruns.counter) for agent in agents
+            self._teams = [
+                Team(scenario, names, self._overruns.counter) for names in teams(scenario, agents)
             ]
         except ValueError as error:
             node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
@@ -59,14 +60,14 @@ class StateAnswers:
         self._cycles.answered(time.perf_counter() - started, age_of(state))
 
     def _decide(self, state, observation, fault):
-        return [each.decide(state, observation, fault) for each in self._assistants]
+        return [team.decide(state, observation, fault) for team in self._teams]
 
     def _send(self, state, observation, decisions):
         # Whoever sends lets other threads go first: all commands before all reports.
-        for assistant, decision in zip(self._assistants, decisions):
-            assistant.send(state, decision)
-        for assistant, decision in zip(self._assistants, decisions):
-            assistant.report(state, observation, decision)
+        for team, decided in zip(self._teams, decisions):
+            team.send(state, decided)
+        for team, decided in zip(self._teams, decisions):
+            team.report(state, observation, decided)
 
     def watch(self, fault, newest_state):
         """From now on, let assistants stand still while inputs are lost, and say how all fare.
@@ -82,8 +83,8 @@ class StateAnswers:
                 self._send(state, None, self._decide(state, None, lost))
 
         reports = {"cycle": self._cycles.report, "inputs": lambda: input_report(fault())}
-        for assistant in self._assistants:
-            reports.update(assistant.reports)
+        for team in self._teams:
+            reports.update(team.reports)
         publish_diagnostics(reports)
         if not self._lockstep:  # there everybody waits for everybody
             node.every(0.5 * self._scenario.controller.timeout, check)

@@ -1,7 +1,7 @@
 """The scenario file: reading it, checking it, writing it with everything filled in."""
 
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
-from deformable_manipulation.scenario.files import package_share_directory
+from deformable_manipulation.scenario.files import package_share_directory, scenario_names
 from deformable_manipulation.scenario.limits import PairLimits, leader_workspace, pair_limits
 from deformable_manipulation.scenario.loader import (
     load_scenario,
@@ -24,6 +24,7 @@ __all__ = [
     "package_share_directory",
     "pair_limits",
     "scenario_from_mapping",
+    "scenario_names",
     "scenario_to_mapping",
     "scenario_to_yaml",
     "with_controller",

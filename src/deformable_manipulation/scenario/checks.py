@@ -13,7 +13,6 @@ from deformable_manipulation.scenario.spec import (
     AgentSpec,
     ControllerSpec,
     LeaderSpec,
-    RodSpec,
     SimulationSpec,
 )
 
@@ -61,16 +60,6 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
             ("controller", "timeout"),
             "must be at least one cycle, 1 / controller.rate = {:g} s".format(1.0 / rate),
             show(controller.timeout),
-        )
-
-
-def check_jacobian(report: Report, spec, controller: ControllerSpec) -> None:
-    """Gradients come from what is known of the object."""
-    if controller.jacobian == "equilibrium" and not isinstance(spec, RodSpec):
-        report.add(
-            ("controller", "jacobian"),
-            "is known for rods only, not for a {}; use perturbed_copies".format(spec.type),
-            show(controller.jacobian),
         )
 
 

@@ -13,7 +13,7 @@ from deformable_manipulation.scenario.readers import (
     Section,
     Unreadable,
 )
-from deformable_manipulation.scenario.rod import POSE
+from deformable_manipulation.scenario.rod import DAMPING, POSE
 from deformable_manipulation.scenario.rotation import rotate
 from deformable_manipulation.scenario.spec import FabricSpec, SimulationSpec, Vector
 
@@ -24,15 +24,15 @@ FABRIC = Section(
         "resolution": Number("1/m", above=0.0, at_most=1e6),
         "mesh": InlineMesh(),
         "scale": Scale(),
-        "density": Number("kg/m^2", above=0.0),
-        "thickness": Number("m", above=0.0),
-        "stretching_compliance": Number("m/N", at_least=0.0),
-        "bending_compliance": Number("1/(N m)", at_least=0.0),
-        "damping": Number("1/s", at_least=0.0),
+        "density": Number("kg/m^2", above=0.0, at_most=1e4),
+        "thickness": Number("m", above=0.0, at_most=1.0),
+        "stretching_compliance": Number("m/N", at_least=0.0, at_most=1e6),
+        "bending_compliance": Number("1/(N m)", at_least=0.0, at_most=1e12),
+        "damping": DAMPING,
         "pose": POSE,
     },
     defaults={"size": None, "resolution": None, "mesh": None, "scale": (1.0, 1.0, 1.0)},
-    others=("type",),
+    others=("type", "material"),
 )
 _SHAPE = ("size", "resolution", "mesh", "scale")
 

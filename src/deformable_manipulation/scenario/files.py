@@ -2,13 +2,19 @@
 
 import os
 from pathlib import Path
-from typing import Optional
+from typing import List, Optional
 
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
 from deformable_manipulation.scenario.readers import nearest
 
 PACKAGE = "deformable_manipulation"
 _PACKAGE_SCHEME = "package://"
+_PAPER_SCENARIOS = (
+    "rope_one_assistant",
+    "stiff_rod_one_assistant",
+    "rope_two_assistants",
+    "fabric_three_assistants",
+)
 
 
 def package_share_directory() -> Path:
@@ -64,6 +70,20 @@ def resolve_file(text: str, directory: Path) -> Path:
     return root / rest
 
 
+def scenario_names() -> List[str]:
+    """Names of the scenarios in ``config/scenarios``, those of the paper first.
+
+    Raises FileNotFoundError where this package's files are not found.
+    """
+    names = [path.stem for path in _scenario_folder().glob("*.yaml")]
+    order = {name: place for place, name in enumerate(_PAPER_SCENARIOS)}
+    return sorted(names, key=lambda name: (order.get(name, len(order)), name))
+
+
+def _scenario_folder() -> Path:
+    return package_share_directory() / "config" / "scenarios"
+
+
 def find_scenario(path_or_name: str) -> Path:
     """The file of a scenario: a path, or the bare name of one in ``config/scenarios``.
 
@@ -78,7 +98,7 @@ def find_scenario(path_or_name: str) -> Path:
     if not is_bare_name:
         raise ScenarioError([Problem("", "there is no such file")], str(path_or_name))
     try:
-        folder = package_share_directory() / "config" / "scenarios"
+        folder = _scenario_folder()
     except FileNotFoundError as error:
         raise ScenarioError([Problem("", str(error))], str(path_or_name)) from error
     named = folder / "{}.yaml".format(path.stem)

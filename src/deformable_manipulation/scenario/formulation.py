@@ -5,15 +5,17 @@ from typing import Any, Dict
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.readers import Node, Report, Section
-from deformable_manipulation.scenario.spec import ControllerSpec
+from deformable_manipulation.scenario.spec import DECENTRALISED, ControllerSpec
 
 FULL, PAPER = "full", "paper"
 
 # The paper's values: defaults with ``formulation: paper``, and nothing else is allowed there.
 _PAPERS = {
+    "cooperation": DECENTRALISED,
     "jacobian": "perturbed_copies",
     "differences": "forward",
     "feedforward": False,
+    "smoothing": 0.0,
     "collision": {
         "margin": 0.0,
         "speed_margin": 0.0,

@@ -10,6 +10,8 @@ from deformable_manipulation.scenario.document import read_document
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import check_formulation
+from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
+from deformable_manipulation.scenario.motions import check_frames
 from deformable_manipulation.scenario.names import FRAME, ONE_LINE
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import read_obstacles
@@ -38,6 +40,7 @@ SCENARIO = Section(
         "leader": LEADER_PATH,
         "controller": controller.CONTROLLER,
         "simulation": simulation.SIMULATION,
+        "knowledge": KNOWLEDGE,
     },
     defaults={"obstacles": ()},
 )
@@ -146,10 +149,11 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
         if all(key in parts for key in keys):
             function(report, *(parts[key] for key in keys))
 
+    check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
-    check(checks.check_jacobian, "object", "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
+    check(check_delay, "controller", "knowledge")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")

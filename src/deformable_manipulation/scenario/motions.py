@@ -3,9 +3,11 @@
 import re
 from typing import Tuple
 
+from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.names import FRAME
 from deformable_manipulation.scenario.readers import (
     Node,
+    Report,
     Section,
     Text,
     UnitQuaternion,
@@ -53,6 +55,7 @@ class MotionReader:
 
     fields = {key: section.fields[key] for key, section in _KINDS.items()}
     defaults = {}
+    others = ()
     allowed = "a section with one of the keys {}".format(", ".join(_KINDS))
 
     def __call__(self, node: Node) -> Motion:
@@ -63,3 +66,15 @@ class MotionReader:
 
 
 MOTION = MotionReader()
+
+
+def check_frames(report: Report, frame: str, obstacles) -> None:
+    """No obstacle is where the fixed frame is: that never moves."""
+    for index, obstacle in enumerate(obstacles):
+        if isinstance(obstacle.motion, FrameMotion) and obstacle.motion.frame == frame:
+            report.add(
+                ("obstacles", str(index), "motion", "frame"),
+                "must be another frame than the fixed one; leave motion out for an obstacle that "
+                "stands",
+                show(frame),
+            )

@@ -11,6 +11,7 @@ from deformable_manipulation.scenario.fabric import (
     fabric_particle_position,
     read_fabric,
 )
+from deformable_manipulation.scenario.materials import read_with_material
 from deformable_manipulation.scenario.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.rod import (
     read_rod,
@@ -34,7 +35,8 @@ def read_object(node: Node):
     if "type" not in node.value:
         node.report.add(node.path + ("type",), "is missing; give {}".format(_TYPE.allowed))
         raise Unreadable
-    return _READERS[_TYPE(node.child("type", node.value["type"]))](node)
+    kind = _TYPE(node.child("type", node.value["type"]))
+    return read_with_material(node, kind, _READERS[kind])
 
 
 @singledispatch

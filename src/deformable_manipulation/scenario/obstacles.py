@@ -1,5 +1,6 @@
 """The ``obstacles`` section: one reader per kind of obstacle."""
 
+import dataclasses
 from typing import Tuple, Union
 
 from deformable_manipulation.distance.polygons import PolygonError, Ring, check_ring, read_ring
@@ -16,6 +17,7 @@ from deformable_manipulation.scenario.readers import (
     Number,
     Section,
     UnitQuaternion,
+    Unreadable,
     position,
     read_items,
 )
@@ -73,8 +75,26 @@ def _read_obstacle(node: Node) -> Obstacle:
     """Which kind it is follows from its keys."""
     if not isinstance(node.value, dict):
         node.fail("must be {}".format(OBSTACLE.allowed))
-    is_mesh = "polygon" not in node.value and not {"mesh", "scale"}.isdisjoint(node.value)
-    return MESH_OBSTACLE(node) if is_mesh else POLYGON_OBSTACLE(node)
+    if "polygon" in node.value:
+        return _read_polygon(node)
+    if {"mesh", "scale"}.isdisjoint(node.value):
+        node.report.add(
+            node.path + ("polygon",),
+            "is missing; give {}; or give mesh instead, {}".format(
+                Polygon.allowed, MeshFile.allowed
+            ),
+        )
+        raise Unreadable
+    return MESH_OBSTACLE(node)
+
+
+def _read_polygon(node: Node) -> PolygonObstacle:
+    if "mesh" not in node.value:
+        return POLYGON_OBSTACLE(node)
+    node.report.add(node.path + ("mesh",), "does not go with polygon; remove one of the two")
+    others = {key: item for key, item in node.value.items() if key not in ("mesh", "scale")}
+    POLYGON_OBSTACLE.read_parts(dataclasses.replace(node, value=others))
+    raise Unreadable
 
 
 OBSTACLE = Custom(

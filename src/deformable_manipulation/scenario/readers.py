@@ -280,7 +280,8 @@ class Section:
         self.spec = spec
         self.fields = dict(fields)
         self._rename = dict(rename or {})
-        self._known = tuple(others) + tuple(fields)
+        self.others = tuple(others)
+        self._known = self.others + tuple(fields)
         self.defaults = dict(_spec_defaults(spec), **(defaults or {}))
         self.allowed = "a section with keys {}".format(", ".join(self._known))
 

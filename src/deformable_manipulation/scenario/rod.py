@@ -15,20 +15,23 @@ from deformable_manipulation.scenario.spec import Pose, RodSpec, Vector
 
 POSE = Section(Pose, {"position": position(), "orientation": UnitQuaternion()})
 
+LARGEST_MODULUS = 1e13  # Pa, ten times that of diamond
+DAMPING = Number("1/s", at_least=0.0, at_most=1e4)
+
 ROD = Section(
     RodSpec,
     {
         "length": Number("m", above=0.0, at_most=1e3),
         "radius": Number("m", above=0.0),
-        "density": Number("kg/m^3", above=0.0),
+        "density": Number("kg/m^3", above=0.0, at_most=1e5),
         "segments": Integer(2, 10000),
-        "young_modulus": Number("Pa", above=0.0),
-        "torsion_modulus": Number("Pa", above=0.0),
+        "young_modulus": Number("Pa", above=0.0, at_most=LARGEST_MODULUS),
+        "torsion_modulus": Number("Pa", above=0.0, at_most=LARGEST_MODULUS),
         "stretch": Choice("zero", "from_moduli"),
-        "damping": Number("1/s", at_least=0.0),
+        "damping": DAMPING,
         "pose": POSE,
     },
-    others=("type",),
+    others=("type", "material"),
 )
 
 

@@ -35,7 +35,7 @@ SIMULATION = Section(
         "time_step": Number("s", at_least=1e-5, at_most=1.0),
         "substeps": Substeps(),
         "solver": Choice("direct", "gauss_seidel"),
-        "gravity": vector("m/s^2"),
+        "gravity": vector("m/s^2", at_least=-1000.0, at_most=1000.0),
         "record_rate": Number("Hz", above=0.0),
     },
     # What they are depends on the object: for_object() fills them in.

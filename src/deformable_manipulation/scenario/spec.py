@@ -5,6 +5,7 @@ The objects of this module hold checked values: they are made by
 :mod:`deformable_manipulation.scenario.loader`, which reports every mistake of a file at once.
 """
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Optional, Tuple, Union
 
@@ -13,6 +14,9 @@ Quaternion = Tuple[float, float, float, float]
 
 LEADER = "leader"
 ASSISTANT = "assistant"
+
+DECENTRALISED = "decentralised"
+CENTRALISED = "centralised"
 
 
 @dataclass(frozen=True)
@@ -232,18 +236,22 @@ class ControllerSpec:
     overstretch: OverstretchSpec = OverstretchSpec()
     proximity: ProximitySpec = ProximitySpec()
     formulation: str = "full"  # "full", or "paper": its equations as they are
+    # "decentralised": each assistant on its own; "centralised": all in one quadratic program
+    cooperation: str = DECENTRALISED
     priority: Tuple[str, str, str] = ("collision", "overstretch", "proximity")  # last yields first
     rate: float = 100.0  # Hz, cycles per second
     gain: float = 1.0  # 1/s, k_p
     weights: Vector = (1.0, 1.0, 1.0)  # gamma, cost of departing from the nominal velocity per axis
     max_velocity: float = 0.15  # m/s, bound on every component
     max_acceleration: float = 1.0  # m/s^2, bound on every component
+    smoothing: float = 0.2  # s, time constant of departures from the nominal velocity; 0: none
     perturbation: Vector = (0.1, 0.1, 0.1)  # m, displacement of each axis' copy
     jacobian: str = "equilibrium"  # exact gradients where known; or "perturbed_copies"
     differences: str = "central"  # "central": copies on both sides; "forward": on one (the paper)
     feedforward: bool = True  # leader's velocity in the nominal law and in the rows
     solver: str = "native"  # of the quadratic program; others: those of qpsolvers
     timeout: float = 0.2  # s, age at which an input counts as lost
+    pose_smoothing: float = 0.2  # s, time constant of the filter of measured poses
 
 
 @dataclass(frozen=True)
@@ -259,6 +267,23 @@ class SimulationSpec:
 
 
 @dataclass(frozen=True)
+class KnowledgeSpec:
+    """What the controllers do not know exactly, in runs without ROS; the defaults are all of it."""
+
+    pose_noise: float = 0.0  # m, standard deviation per component, cycle and agent, white
+    pose_delay: float = 0.0  # s, age of the newest poses
+    stiffness_factor: float = 1.0  # of the object, true over assumed
+    density_factor: float = 1.0  # true over assumed
+    dropped_cycles: float = 0.0  # probability that a controller gets no new state in a cycle
+    seed: int = 0  # of noise and drops
+
+    @property
+    def perfect(self) -> bool:
+        """Whether the controllers see the object itself, at once and in every cycle."""
+        return dataclasses.replace(self, seed=0) == KnowledgeSpec()
+
+
+@dataclass(frozen=True)
 class Scenario:
     """A whole run: object, agents, obstacles, leader, controller, simulation."""
 
@@ -269,6 +294,7 @@ class Scenario:
     leader: LeaderSpec
     controller: ControllerSpec
     simulation: SimulationSpec
+    knowledge: KnowledgeSpec = KnowledgeSpec()
     frame: str = "map"  # the fixed frame
 
     @property

@@ -1,6 +1,7 @@
 """The command run_campaign: a small campaign in processes of this machine and on a cluster."""
 
 import csv
+import errno
 import json
 import os
 import signal
@@ -71,6 +72,7 @@ def test_an_older_campaign_is_not_overwritten(folder, capsys):
         (["--runs", "0"], "must be more than 0"),
         (["--runs", "many"], "invalid number"),
         (["--speed", "nan"], "must be more than 0"),
+        (["--speed", "2.5"], "must be at most 2 m/s"),
         (["--seed", "-1"], "must be 0 or more"),
         (["--material", "0.5"], "must be 1"),
         (["--cluster", "nowhere"], "tcp://HOST:PORT"),
@@ -87,6 +89,21 @@ def test_what_cannot_be_varied_fails_before_anything_is_written(tmp_path, capsys
     assert run_campaign.main(arguments) == 1
     assert "9 m clear" in capsys.readouterr().err
     assert not (tmp_path / "none").exists()
+
+
+def test_a_folder_that_cannot_be_written_fails_before_any_run(tmp_path, monkeypatch, capsys):
+    def refused(folder):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(run_campaign, "writable_folder", refused)
+    assert run_campaign.main([*SHORT, "--output", str(tmp_path)]) == 1
+    assert f"cannot write into {tmp_path}: Permission denied" in capsys.readouterr().err
+
+
+def test_a_folder_below_a_file_fails_before_any_run(tmp_path, capsys):
+    (tmp_path / "file").touch()
+    assert run_campaign.main([*SHORT, "--output", str(tmp_path / "file" / "out")]) == 1
+    assert "choose a folder you may write to with --output" in capsys.readouterr().err
 
 
 class Suicidal(Campaign):

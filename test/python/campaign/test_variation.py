@@ -69,6 +69,17 @@ def test_material_terrain_and_starts_are_others(scenario, varied):
         assert each.agents[1].start != scenario.agents[1].start
 
 
+def test_imperfect_knowledge_is_drawn_and_changes_nothing_else(scenario, varied):
+    ranges = dataclasses.replace(RANGES, imperfect=True)
+    for index, perfect in enumerate(varied):
+        imperfect = vary(scenario, ranges, 7, index)
+        known = imperfect.knowledge
+        assert 0.0 < known.pose_noise <= 0.002 and 0.0 < known.pose_delay <= 0.05
+        assert 0.5 <= known.stiffness_factor <= 2.0 and 0.5 <= known.density_factor <= 2.0
+        assert 0.0 < known.dropped_cycles <= 0.2
+        assert dataclasses.replace(imperfect, knowledge=perfect.knowledge) == perfect
+
+
 def test_what_is_not_to_change_stays(scenario):
     ranges = dataclasses.replace(RANGES, material=1.0, terrain=False)
     varied = vary(scenario, ranges, 0, 0)

@@ -48,7 +48,7 @@ def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
     everybody = list(range(1, assistants + 1))
     return [
         CollisionBarrier(
-            i, everybody, OFFSET, SLOPES, band=band, margin=margin, speed_margin=speed_margin,
+            [i], everybody, OFFSET, SLOPES, band=band, margin=margin, speed_margin=speed_margin,
             formulation=formulation(**settings),
         )
         for i in everybody
@@ -81,6 +81,21 @@ def test_rows_sum_to_the_whole_constraint(assistants, seed):
         rate = (ends[1] - ends[0]) / (2.0 * step)
         alpha = PiecewiseLinearClassK(*SLOPES)(features.distance[m] - OFFSET)
         assert total[m] == pytest.approx(rate + alpha, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rows_of_all_together_are_the_sum_of_the_shares(seed):
+    """And so the whole constraint."""
+    *_, velocities, features = setting(3, seed)
+    scene = situation(velocities)
+    shares = [barrier.rows(features, scene) for barrier in barriers(3)]
+    together = CollisionBarrier(
+        [3, 1, 2], [1, 2, 3], OFFSET, SLOPES, band=BAND, formulation=formulation()
+    ).rows(features, scene)
+    np.testing.assert_allclose(together.bounds, sum(rows.bounds for rows in shares), atol=1e-12)
+    np.testing.assert_array_equal(
+        together.coefficients, np.hstack([shares[i].coefficients for i in (2, 0, 1)])
+    )
 
 
 def test_distance_is_predicted_for_the_time_when_the_command_acts():
@@ -122,6 +137,17 @@ def test_without_leader_velocity_and_shares_it_is_the_papers_row():
     np.testing.assert_allclose(rows.bounds, -alpha)
 
 
+def test_the_velocity_of_obstacles_may_be_left_out():
+    _, _, _, velocities, features = setting(2, 5)
+    standing = Features(
+        features.distance, features.normal, 0.0 * features.normal, features.gradients
+    )
+    scene = situation(velocities, 0.02)
+    left_out = barriers(2, obstacle_velocity=False)[0].rows(features, scene)
+    np.testing.assert_array_equal(left_out.bounds, barriers(2)[0].rows(standing, scene).bounds)
+    assert abs(left_out.bounds - barriers(2)[0].rows(features, scene).bounds).min() > 1e-3
+
+
 def test_a_feature_that_nobody_moves_is_shared_equally():
     normal = np.array([[0.0, 0.0, 1.0]])
     gradients = np.zeros((1, 3, 3))
@@ -152,7 +178,7 @@ def test_rows_keep_their_margins_above_the_offset():
 
 def test_a_softer_row_asks_earlier():
     features, scene = one_feature([OFFSET + 0.02])
-    barrier = CollisionBarrier(1, [1], OFFSET, SLOPES, (0.4, 5.0))
+    barrier = CollisionBarrier([1], [1], OFFSET, SLOPES, (0.4, 5.0))
     rows = barrier.rows(features, scene)
     assert rows.tiers == [Tier.COLLISION, Tier.ANTICIPATION]
     np.testing.assert_allclose(rows.bounds, [-0.02, -0.008])

@@ -5,54 +5,30 @@ import functools
 import control_builders as build
 import numpy as np
 import pytest
+from control_run import Run
 from scipy.signal import butter, filtfilt
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.leader import LeaderController
-from deformable_manipulation.scenario.spec import OverstretchSpec
+from deformable_manipulation.scenario.spec import (
+    CENTRALISED,
+    DECENTRALISED,
+    OverstretchSpec,
+)
 
-GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
 FAR = build.HalfSpace((0.0, 0.0, 1.0), -9.0)
 # The leader sinks at up to 0.15 m/s, until the object would be 0.15 m in the ground, and moves on.
 DIVE = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (6.5, (0, 0.2, -0.5)), (9.0, (0, 0.4, -0.5)))
 
 
-class Run:
-    """Histories of a run: time first."""
-
-    def __init__(self, scenario, duration, obstacle=GROUND, sag=0.55, **settings):
-        assistants = [scenario.agents[i].name for i in scenario.assistants]
-        controllers = [AssistantController(scenario, name, **settings) for name in assistants]
-        leader = LeaderController(scenario)
-        body = build.hanging_chain(len(scenario.agents), sag)
-        positions = np.array([agent.start for agent in scenario.agents])
-        acting = np.zeros_like(positions)
-        states, decisions = [], []
-        for k in range(round(duration / scenario.cycle_time)):
-            time = k * scenario.cycle_time
-            observation = build.observe(time, positions, body, obstacle.at(time), cycle=k)
-            decided = [controller.update(observation) for controller in controllers]
-            states.append(positions)
-            decisions.append(decided)
-            commands = [leader.update(time, positions[0])] + [each.command for each in decided]
-            positions = positions + scenario.cycle_time * acting
-            acting = np.array(commands)
-        self.positions = np.array(states)
-        self.decisions = decisions
-
-    def all(self, field):
-        return np.array([[getattr(each, field) for each in row] for row in self.decisions])
-
-
 @functools.lru_cache(maxsize=None)
-def dive(assistants, feedforward=True, safety=True, duration=11.0):
-    return Run(build.scenario(assistants, DIVE, feedforward=feedforward), duration, safety=safety)
+def dive(assistants, safety=True, duration=11.0, **settings):
+    return Run(build.scenario(assistants, DIVE, **settings), duration, safety=safety)
 
 
+@pytest.mark.parametrize("cooperation", [DECENTRALISED, CENTRALISED])
 @pytest.mark.parametrize("assistants", [1, 2, 3])
-def test_keeps_off_the_ground_while_the_leader_dives(assistants):
-    run = dive(assistants)
+def test_keeps_off_the_ground_while_the_leader_dives(assistants, cooperation):
+    run = dive(assistants, cooperation=cooperation)
     assert run.all("h_collision").min() >= -1e-3
     assert run.all("h_overstretch").min() >= -1e-3
     assert run.all("h_proximity").min() >= -1e-3
@@ -77,9 +53,10 @@ def test_the_papers_formulation_falls_short_on_the_same_dive():
     assert lowest < -1e-3 < 0.0 <= dive(1).all("h_collision").min()
 
 
+@pytest.mark.parametrize("cooperation", [DECENTRALISED, CENTRALISED])
 @pytest.mark.parametrize("assistants", [1, 3])
-def test_commands_do_not_oscillate(assistants):
-    run = dive(assistants)
+def test_commands_do_not_oscillate(assistants, cooperation):
+    run = dive(assistants, cooperation=cooperation)
     high_pass = butter(4, 1.0, "highpass", fs=100.0)  # Hz
     for field in ("distance", "h_overstretch", "h_proximity"):
         fast = filtfilt(*high_pass, run.all(field), axis=0)

@@ -16,15 +16,18 @@ def situation(positions, leader_velocity=(0.0, 0.0, 0.0), others=0.0):
 
 
 def barrier_of(kind, agent=1, limits=LIMITS, **settings):
-    return PairBarrier(kind, agent, 0, limits, SLOPES, **settings)
+    """Of one assistant, with its limits against each other agent."""
+    symmetric = np.zeros((3, 3))
+    symmetric[agent] = symmetric[:, agent] = limits
+    return PairBarrier(kind, [agent], 0, symmetric, SLOPES, **settings)
 
 
 def value(barrier, positions):
-    return np.array([barrier.value(positions, other) for other in (0, 2)])
+    return np.array([barrier.value(positions, 1, other) for other in (0, 2)])
 
 
-def gradient(barrier, positions, others=(0, 2)):
-    return np.array([barrier.gradient(positions, other) for other in others])
+def gradient(barrier, positions, agent=1, others=(0, 2)):
+    return np.array([barrier.gradient(positions, agent, other) for other in others])
 
 
 @pytest.fixture(params=range(5))
@@ -67,7 +70,7 @@ def test_row_against_the_leader_is_the_whole_constraint(kind, positions):
         moved[0] += sign * step * leader
         moved[1] += sign * step * own
     rate = (value(barrier, ahead) - value(barrier, behind))[0] / (2.0 * step)
-    alpha = PiecewiseLinearClassK(*SLOPES)(barrier.value(positions, 0))
+    alpha = PiecewiseLinearClassK(*SLOPES)(barrier.value(positions, 1, 0))
     assert rows.coefficients[0] @ own - rows.bounds[0] == pytest.approx(rate + alpha, abs=1e-7)
 
 
@@ -82,8 +85,8 @@ def test_two_assistants_share_the_whole_constraint(kind, positions):
         rows.coefficients[1] @ u - rows.bounds[1]
         for rows, u in ((one.rows(scene), first), (two.rows(scene), second))
     ]
-    direction = one.gradient(positions, 2)
-    alpha = PiecewiseLinearClassK(*SLOPES)(one.value(positions, 2))
+    direction = one.gradient(positions, 1, 2)
+    alpha = PiecewiseLinearClassK(*SLOPES)(one.value(positions, 1, 2))
     assert sum(shared) == pytest.approx(direction @ (first - second) + alpha)
 
 
@@ -100,7 +103,7 @@ def test_a_formation_that_moves_with_the_leader_is_not_held_back(kind):
 def test_coincident_points_have_a_direction_that_both_agents_agree_on(kind):
     positions = np.zeros((3, 3))
     one = gradient(barrier_of(kind, 1), positions)
-    two = gradient(barrier_of(kind, 2), positions, (0, 1))
+    two = gradient(barrier_of(kind, 2), positions, 2, (0, 1))
     np.testing.assert_allclose(np.linalg.norm(one, axis=1), 1.0)
     np.testing.assert_array_equal(one[1], -two[1])
     assert np.isfinite(barrier_of(kind).rows(situation(positions)).bounds).all()
@@ -112,7 +115,7 @@ def test_rows_keep_a_margin_that_the_value_does_not_count(kind, positions):
     np.testing.assert_array_equal(value(with_margin, positions), value(barrier_of(kind), positions))
     alpha = PiecewiseLinearClassK(*SLOPES)
     bound = with_margin.rows(situation(positions)).bounds[0]
-    assert bound == pytest.approx(-alpha(with_margin.value(positions, 0) - 0.005))
+    assert bound == pytest.approx(-alpha(with_margin.value(positions, 1, 0) - 0.005))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -121,10 +124,31 @@ def test_without_shares_each_answers_the_others_measured_velocity(kind, position
     barrier = barrier_of(kind, shares=False)
     rows = barrier.rows(situation(positions, (0.1, 0.0, -0.2), others=0.3))
     alpha = PiecewiseLinearClassK(*SLOPES)
-    wanted = barrier.gradient(positions, 2) @ np.full(3, 0.3) - alpha(barrier.value(positions, 2))
+    direction, h = barrier.gradient(positions, 1, 2), barrier.value(positions, 1, 2)
+    wanted = direction @ np.full(3, 0.3) - alpha(h)
     assert rows.bounds[1] == pytest.approx(wanted)
 
 
 def test_the_lowest_is_that_of_the_worst_pair(positions):
     barrier = barrier_of("overstretch")
-    assert barrier.lowest(positions) == value(barrier, positions).min()
+    assert barrier.lowest(positions, 1) == value(barrier, positions).min()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("commanded", [(1, 2), (2, 1)])
+def test_a_row_of_two_commanded_together_is_the_whole_constraint(kind, commanded, positions):
+    """One row per pair: two against the leader, one between the two, dh/dt from moving both."""
+    leader, first, second = np.random.default_rng(9).normal(size=(3, 3))
+    velocities = np.array([leader, first, second])
+    barrier = PairBarrier(kind, list(commanded), 0, np.full((3, 3), 1.1), SLOPES)
+    rows = barrier.rows(situation(positions, leader))
+    found = rows.coefficients @ velocities[list(commanded)].ravel() - rows.bounds
+    alpha = PiecewiseLinearClassK(*SLOPES)
+    step, wanted = 1e-6, []
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        ends = [
+            barrier.value(positions + sign * step * velocities, i, j) for sign in (-1.0, 1.0)
+        ]
+        rate = (ends[1] - ends[0]) / (2.0 * step)
+        wanted.append(rate + alpha(barrier.value(positions, i, j)))
+    np.testing.assert_allclose(sorted(found), sorted(wanted), atol=1e-7)

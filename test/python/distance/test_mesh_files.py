@@ -90,11 +90,34 @@ def test_files_that_are_no_mesh(write, content, name, reason):
     assert str(path) in str(caught.value) and "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    "face", ["f 0 1 2", "f 1 0 2", "f 1/1 2/1 0/1\r", " f 1 2 00", "f 1//1 2//1 0//1 "]
+)
+def test_obj_files_count_from_1(write, face):
+    with pytest.raises(MeshError, match="a face names vertex 0; OBJ counts vertices from 1"):
+        read_mesh(write(OBJ + face + "\n"))
+
+
+@pytest.mark.parametrize("line", ["# f 0 1 2", "s 0", "f 1 2 3 5"])
+def test_zeros_of_obj_files_that_are_no_vertices(write, line):
+    assert len(read_mesh(write(OBJ + line + "\n"))[1]) >= 2
+
+
+def test_what_a_library_says_of_a_broken_file_is_not_passed_on(write):
+    path = write(bytes(range(256)) * 4, "noise.stl")
+    with pytest.raises(MeshError) as caught:
+        read_mesh(path)
+    assert str(caught.value) == (
+        f"{path} is no mesh that can be read: it is broken, or no STL file; formats allowed: "
+        "OBJ, PLY, STL, OFF, glTF and GLB"
+    )
+
+
 def test_files_that_are_none(tmp_path):
     os.mkfifo(tmp_path / "pipe.obj")
     (tmp_path / "zero.obj").symlink_to("/dev/zero")
     for name in ("pipe.obj", "zero.obj", "missing.obj", "."):
-        with pytest.raises(MeshError, match="cannot be read"):
+        with pytest.raises(MeshError, match="cannot be read|is no regular file"):
             read_mesh(tmp_path / name)
 
 

@@ -114,3 +114,22 @@ def test_a_cantilevered_strip_droops_as_the_elastica(load):
     shape = solve_cantilever(length, rigidity * width, density * GRAVITY * width)
     drop = -strip.positions()[columns - 1 :: columns, 2].mean()
     assert drop == pytest.approx(-shape.positions([length])[0, 1], rel=0.03)
+
+
+def test_the_derivative_of_an_equilibrium_is_that_of_equilibria_nearby():
+    properties = FabricProperties(stretching_compliance=1e-3, bending_compliance=1e2)
+    mesh = rectangle((1.0, 1.0), (5, 5))
+    held = corners((5, 5))
+    energy = energy_of(mesh, properties)
+    fabric = hang(mesh, properties, {i: 0.9 * mesh.vertices[i] for i in held})
+    exact = energy.minimised(fabric.positions(), held)
+    response = energy.response(exact, held)
+    assert response.sum(axis=0) == pytest.approx(np.tile(np.eye(3), (25, 1, 1)), abs=1e-9)
+    displacement = np.array([1.0, -2.0, 3.0]) * 1e-5
+    sides = []
+    for side in (displacement, -displacement):
+        displaced = exact.copy()
+        displaced[held[2]] += side
+        sides.append(energy.minimised(displaced, held))
+    change = (sides[0] - sides[1]) / 2.0
+    assert change == pytest.approx(response[2] @ displacement, abs=1e-4 * 1e-5)

@@ -75,7 +75,8 @@ class BagWriter:
             "error_norm enabled"
         ).split():
             values[field] = getattr(decision, field)
-        values.update(status=int(decision.status), status_text="", agent=agent, **changes)
+        values.update(status=int(decision.status), status_text="", agent=agent)
+        values.update(overruns=0, skipped_states=0, **changes)
         message = self._message(CONTROLLER_STATE, cycle, reset_count, values)
         self.write(f"{namespace}/{agent}/controller_state", CONTROLLER_STATE, message)
 
@@ -123,7 +124,7 @@ class BagWriter:
         )
         for name in (
             "agent_orientations agent_velocities agent_angular_velocities displacements "
-            "orientations velocities sensitivities"
+            "orientations velocities measured_velocities sensitivities"
         ).split():
             values[name] = np.zeros(0)
         message = self._message(OBJECT_STATE, cycle, reset_count, values)

@@ -90,6 +90,20 @@ def test_the_scenario_is_found_whatever_the_namespace(scenario, tmp_path, topic)
     assert read_frames(read_run(tmp_path / "run.bag")).scenario == scenario
 
 
+def test_the_run_of_the_chosen_namespace_is_read(scenario, tmp_path):
+    with BagWriter(tmp_path / "run.bag") as writer:
+        for cycle in range(3):
+            for sign, namespace in ((1.0, "/left"), (-1.0, "/right")):
+                record = make_record(scenario, cycle)
+                writer.controller_state(cycle, namespace=namespace)
+                names = [agent.name for agent in scenario.agents]
+                agents = dict(zip(names, sign * record.positions))
+                writer.object_state(cycle, sign * record.points, agents, namespace=namespace)
+        writer.run_info(scenario, "/right/run_info")
+    frames = read_frames(read_run(tmp_path / "run.bag", "right"))
+    np.testing.assert_allclose(frames.agents[0], -make_record(scenario, 0).positions, atol=1e-6)
+
+
 def test_only_the_last_run_of_a_bag_counts(scenario, tmp_path):
     write_bag(tmp_path / "run.bag", scenario, range(0, CYCLES, 10), reset_count=1)
     frames = read_frames(read_run(tmp_path / "run.bag"))

@@ -1,3 +1,4 @@
+import os
 import shutil
 
 import numpy as np
@@ -6,6 +7,7 @@ from bag_writing import BagWriter
 from synthetic_run import OFFSET, make_decision, make_record, make_scenario
 
 from deformable_manipulation.commands.plot_run import main
+from deformable_manipulation.plotting import title_of
 from deformable_manipulation.recording import RunDataError, RunRecorder, read_run
 
 
@@ -50,9 +52,10 @@ def test_folder_and_bag_of_the_same_run_agree(run_folder, tmp_path):
 def test_figures_are_written_beside_the_run_and_named(run_folder, capsys):
     assert main([str(run_folder)]) == 0
     names = ("controller_assistant_1", "controller_assistant_2", "overview")
-    figures = [run_folder / f"{name}.png" for name in names]
+    figures = [run_folder / f"{name}{ending}" for name in names for ending in (".png", ".pdf")]
     assert capsys.readouterr().out.split() == [str(path) for path in figures]
-    assert all(path.read_bytes().startswith(b"\x89PNG") for path in figures)
+    magic = {".png": b"\x89PNG", ".pdf": b"%PDF"}
+    assert all(path.read_bytes().startswith(magic[path.suffix]) for path in figures)
 
 
 def test_figures_of_a_bag_carry_its_name(tmp_path, capsys):
@@ -62,7 +65,7 @@ def test_figures_of_a_bag_carry_its_name(tmp_path, capsys):
         writer.cycle(0, reset_count=1)
     # The folder holds exactly one bag.
     output = tmp_path / "new" / "figures"
-    assert main([str(tmp_path / "bags"), "--output", str(output), "--format", "png,pdf"]) == 0
+    assert main([str(tmp_path / "bags"), "--output", str(output)]) == 0
     captured = capsys.readouterr()
     names = ["monday_controller_assistant_1.png", "monday_controller_assistant_1.pdf"]
     assert captured.out.split() == [str(output / name) for name in names]
@@ -119,6 +122,32 @@ def test_unknown_format_is_refused(run_folder, capsys):
         main([str(run_folder), "--format", "png,gif"])
     assert stop.value.code == 2
     assert "unknown format 'gif'; allowed: png, pdf, svg" in capsys.readouterr().err
+
+
+def test_a_pipe_in_the_place_of_a_file_is_refused(run_folder, tmp_path, capsys):
+    (run_folder / "states.npz").unlink()
+    os.mkfifo(str(run_folder / "states.npz"))
+    assert main([str(run_folder), "--format", "png"]) == 0
+    assert "no overview" in (told := capsys.readouterr().err) and "no regular file" in told
+    os.mkfifo(str(tmp_path / "run.bag"))
+    assert main([str(tmp_path / "run.bag")]) == 1
+    assert "run.bag is no regular file" in capsys.readouterr().err
+    (run_folder / "summary.json").unlink()
+    os.mkfifo(str(run_folder / "summary.json"))
+    assert read_run(run_folder).scenario == "synthetic"
+
+
+def test_figures_are_titled_by_the_scenario_whatever_the_folder_is_called(run_folder, tmp_path):
+    run = read_run(run_folder)
+    assert (run.name, title_of(run, "assistant_1")) == ("trial", "synthetic: assistant_1")
+    (run_folder / "summary.json").unlink()  # as of a run that was killed
+    assert title_of(read_run(run_folder)) == "synthetic"
+    (run_folder / "scenario.yaml").unlink()
+    assert title_of(read_run(run_folder)) == "trial"
+    with BagWriter(tmp_path / "monday.bag") as writer:
+        writer.cycle(0)
+        writer.run_info(make_scenario(tmp_path))
+    assert title_of(read_run(tmp_path / "monday.bag")) == "synthetic"
 
 
 def test_an_output_that_cannot_be_written(run_folder, capsys):

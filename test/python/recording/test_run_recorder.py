@@ -156,6 +156,7 @@ def test_summary_numbers(scenario, tmp_path):
         "simulation": pytest.approx({"median_ms": 2.5, "p99_ms": 3.97}),
         "distance": pytest.approx({"median_ms": 2.0, "p99_ms": 2.0}),
         "controller": {"median_ms": None, "p99_ms": None},
+        "solver": pytest.approx({"median_ms": 0.025, "p99_ms": 0.0299}),  # of two cycles
     }
     assert summary.pop("version").count(".") == 2
     assert summary.pop("worst_violation") == pytest.approx(0.019)

@@ -86,6 +86,19 @@ def test_an_observation_is_the_simulation_s_state(state, distances, simulation, 
     assert not seen.ready[-1] and seen.ready[:-1].all()
 
 
+def test_measured_velocities_come_in_the_scenario_s_order(state, distances, scenario):
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    assert seen.velocities is None
+    velocities = np.arange(3.0 * len(state.agents)).reshape(-1, 3)
+    state.measured_velocities = velocities.ravel()
+    seen = conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+    order = conversions.agent_order(state, scenario)
+    np.testing.assert_array_equal(seen.velocities, velocities[order])
+    state.measured_velocities = np.zeros(2)
+    with pytest.raises(conversions.MessageError, match="measured_velocities"):
+        conversions.to_observation(transmitted(state), transmitted(distances), scenario)
+
+
 def test_distances_arrive_as_they_were_computed(distances, computed):
     received = conversions.to_distances(transmitted(distances))
     for name in vars(computed):
@@ -184,11 +197,11 @@ def test_distances_that_are_unusable_say_so(state, scenario):
         distances_message(), state, Distances.unknown(copies, ("ground",)), 0.0, fault="it is lost"
     )
     with pytest.raises(MessageError, match="^it is lost$"):
-        conversions.usable_distances(transmitted(message), scenario)
+        conversions.to_distances(transmitted(message))
     message.fault = ""
     # Nor are they taken for those of a run without obstacles.
-    distances = conversions.usable_distances(transmitted(message), scenario)
-    seen = conversions.to_observation(transmitted(state), distances, scenario)
+    unknown = conversions.to_distances(transmitted(message))
+    seen = conversions.to_observation(transmitted(state), unknown, scenario)
     assert "distances.minimum" in find_fault(seen, len(FILE_ORDER))
 
 

@@ -19,9 +19,35 @@ def test_correct_file(path, capsys):
     output = capsys.readouterr()
     assert output.out.startswith("{}: correct\n".format(path))
     for part in ("rod of 2 m", "helper: assistant, holds particle 9", "0.18 to 1.782 m",
-                 "block: polygon of 4 points", "250 cycles at 50 Hz"):
+                 "block: polygon of 4 points", "250 cycles at 50 Hz",
+                 "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; in all "
+                 "0.6283 kg, bending stiffness 0.07854 N m^2"):
         assert part in output.out
     assert output.err == ""
+
+
+def test_a_name_that_is_not_the_file_s_is_told(path, capsys):
+    assert main([str(path), "--set", "name=copied"]) == 0
+    assert "WARNING: name: its runs and pictures will be called 'copied'" in capsys.readouterr().err
+
+
+def test_surfaces_without_an_inside_are_told(path, mapping, capsys):
+    (path.parent / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    mapping["obstacles"].append({"name": "sheet", "mesh": "sheet.obj"})
+    path.write_text(yaml.safe_dump(mapping))
+    assert main([str(path)]) == 0
+    output = capsys.readouterr()
+    assert "WARNING: obstacle 'sheet': " in output.err and "no sign" in output.err
+
+
+def test_material_of_a_fabric(fabric_mapping, tmp_path, capsys):
+    path = tmp_path / "small.yaml"
+    path.write_text(yaml.safe_dump(fabric_mapping))
+    assert main([str(path), "--set", "object.stretching_compliance=0"]) == 0
+    expected = (
+        "0.5 kg/m^2, thickness 0.002 m, stiffness to stretching rigid, to bending 0.0001 N m"
+    )
+    assert expected in capsys.readouterr().out
 
 
 def test_resolved_is_yaml_alone_and_means_the_same(path, capsys):
@@ -111,6 +137,8 @@ def test_a_launch_s_own_arguments(path, capsys, tmp_path):
         (["--assistants", "hand"], "assistants: helper"),
         (["--assistants", "helper helper"], "names one twice"),
         (["--assistants", "", "--all-assistants"], 'give assistants:="helper"'),
+        (["--separate", "--set", "controller.cooperation=centralised"],
+         "leave out one_process:=false"),
         (["--leader", "helper"], "leader:=hand"),
         (["--output", "/nowhere"], "'/nowhere' \u2014 does not exist"),
         (["--output", "/dev/null"], "is no folder"),
@@ -121,6 +149,13 @@ def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
     output = capsys.readouterr()
     assert output.out == ""
     assert expected in output.err
+
+
+def test_imperfect_knowledge_is_not_for_launches(path, capsys):
+    imperfect = [str(path), "--set", "knowledge.pose_noise=0.001"]
+    assert main(imperfect) == 0
+    assert main([*imperfect, "--assistants", "helper"]) == 1
+    assert "runs without ROS" in capsys.readouterr().err
 
 
 def test_all_mistakes_in_a_launch_s_arguments_at_once(path, capsys):

@@ -49,7 +49,7 @@ WRONG = [
     ("scale", [1, -1, 1], "obstacles.1.scale.1", "a number >= 1e-06"),
     ("rotation", [0, 0, 0, 2], "obstacles.1.rotation", "norm 1"),
     ("plane", "xz", "obstacles.1.plane", "known keys: name, mesh"),
-    ("polygon", [[0, 0], [1, 0], [1, 1]], "obstacles.1.mesh", "known keys: name, polygon"),
+    ("polygon", [[0, 0], [1, 0], [1, 1]], "obstacles.1.mesh", "remove one of the two"),
 ]
 
 
@@ -65,6 +65,22 @@ def test_all_mistakes_at_once(cube, change, problems_of):
     change(cube, "obstacles.1.scale", -1)
     change(cube, "controller.gain", -1)
     assert set(problems_of(cube)) == {"obstacles.1.mesh", "obstacles.1.scale", "controller.gain"}
+
+
+def test_an_obstacle_without_a_shape(mapping, problems_of):
+    mapping["obstacles"] = [{"name": "nothing"}]
+    found = problems_of(mapping)
+    assert list(found) == ["obstacles.0.polygon"]
+    assert "or give mesh instead, the name of a mesh file (OBJ" in found["obstacles.0.polygon"]
+
+
+def test_all_mistakes_of_an_obstacle_with_two_shapes(cube, change, problems_of):
+    change(cube, "obstacles.1.polygon", 3)
+    change(cube, "obstacles.1.plane", "ab")
+    change(cube, "obstacles.1.scale", 2)
+    assert set(problems_of(cube)) == {
+        "obstacles.1.mesh", "obstacles.1.plane", "obstacles.1.polygon"
+    }
 
 
 def test_files_of_a_checked_mapping_are_not_read_again(cube, change):

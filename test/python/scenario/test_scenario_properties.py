@@ -96,7 +96,7 @@ def scenario_mappings(draw):
             "type": "rod",
             "length": length,
             "radius": 0.01,
-            "density": draw(positive),
+            "density": draw(st.floats(1e-3, 1e5)),
             "segments": segments,
             "young_modulus": draw(positive),
             "torsion_modulus": draw(positive.map(str)),

@@ -5,6 +5,7 @@ from typing import Callable, Dict
 from deformable_manipulation.validation.cases import (
     cantilever,
     convergence,
+    fabric_gradients,
     fabrics,
     free,
     hanging,
@@ -27,6 +28,7 @@ CASES: Dict[str, Callable[[bool], CaseResult]] = {
     "motion": motion.run,
     "wrenches": wrenches.run,
     "fabrics": fabrics.run,
+    "fabric_gradients": fabric_gradients.run,
 }
 
 

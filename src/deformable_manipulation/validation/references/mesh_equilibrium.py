@@ -100,6 +100,21 @@ class MeshEnergy:
             positions = self._descended(positions, free, gradient)
         raise RuntimeError("the equilibrium of the mesh was not found")
 
+    def response(self, positions: np.ndarray, held: Sequence[int]) -> np.ndarray:
+        """How an equilibrium follows its held vertices: (H, P, 3, 3) d position / d held position.
+
+        By implicit differentiation: where the forces on the free vertices stay zero, the Hessian's
+        rows of these give K dx + K_h dx_h = 0. Means nothing where K is singular.
+        """
+        of_vertex = np.arange(3 * len(positions)).reshape(-1, 3)
+        free = np.delete(of_vertex, list(held), axis=0).ravel()
+        fixed = of_vertex[list(held)].ravel()
+        rows = self.hessian(positions, convex=False)[free]
+        moved = np.zeros((3 * len(positions), len(fixed)))
+        moved[free] = -splu(rows[:, free].tocsc()).solve(rows[:, fixed].toarray())
+        moved[fixed] = np.eye(len(fixed))
+        return moved.reshape(len(positions), 3, -1, 3).transpose(2, 0, 1, 3)
+
     def _spans(self, positions: np.ndarray) -> np.ndarray:
         return positions[self.edges[:, 1]] - positions[self.edges[:, 0]]
 

@@ -5,15 +5,15 @@ from genpy import Time
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from deformable_manipulation.ros import stepped_run
+from deformable_manipulation.ros import marker_watch
 
 STATE = Time(7, 500000000)
 
 
 @pytest.fixture
 def watch(monkeypatch):
-    monkeypatch.setattr(stepped_run.rospy, "Subscriber", lambda *arguments, **options: None)
-    return stepped_run.MarkerWatch(STATE)
+    monkeypatch.setattr(marker_watch.rospy, "Subscriber", lambda *arguments, **options: None)
+    return marker_watch.MarkerWatch(STATE)
 
 
 def draw(watch, node, *stamps):

@@ -1,0 +1,1 @@
+"""New scenarios from templates and from other scenarios."""

@@ -1,0 +1,30 @@
+"""Which RViz configuration shows a scenario."""
+
+from pathlib import Path
+from typing import Optional
+
+from deformable_manipulation.authoring.places import rviz_file_of
+from deformable_manipulation.scenario.files import package_share_directory
+from deformable_manipulation.scenario.spec import Scenario
+
+# Of the package's own, for scenarios without one.
+_BY_TYPE = {"rod": "rope_one_assistant", "fabric": "fabric_three_assistants"}
+
+
+def own_configuration(scenario: Scenario, scenario_file: Optional[Path] = None) -> Optional[Path]:
+    """That of the scenario's file, if that is known; else the package's of its name, if any."""
+    beside = [] if scenario_file is None else [rviz_file_of(scenario_file)]
+    for path in (*beside, _of_package(scenario.name)):
+        if path.is_file():
+            return path
+    return None
+
+
+def rviz_configuration(scenario_file: Optional[Path], scenario: Scenario) -> Path:
+    """Its own configuration; else the package's for objects of its type."""
+    own = own_configuration(scenario, scenario_file)
+    return own or _of_package(_BY_TYPE[scenario.object.type])
+
+
+def _of_package(name: str) -> Path:
+    return package_share_directory() / "rviz" / "{}.rviz".format(name)

@@ -1,0 +1,46 @@
+"""How every command ends when it is interrupted or its output cannot be written: in one line."""
+
+import importlib
+import os
+import signal
+import sys
+from typing import Sequence
+
+from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.interruption import exit_status, interruptible
+
+CLOSED = 128 + signal.SIGPIPE  # exit status when the reader of a pipe has gone, as of other tools
+
+
+def run_command(name: str, arguments: Sequence[str]) -> int:
+    """Import and run ``commands.<name>.main(arguments)``; returns its exit status.
+
+    The import is guarded, too: it is most of what a short command does.
+    """
+    with interruptible():
+        try:
+            status = _run(name, arguments)
+            sys.stdout.flush()  # what fails at exit could only be told by a traceback
+            return status
+        except KeyboardInterrupt as interrupt:
+            return exit_status(interrupt)
+        except BrokenPipeError:
+            _discard_output()
+            return CLOSED
+        except OSError as error:
+            _discard_output()
+            return fail(name, f"cannot write the output: {error.strerror or error}")
+
+
+def _run(name: str, arguments: Sequence[str]) -> int:
+    try:
+        return importlib.import_module(f"deformable_manipulation.commands.{name}").main(arguments)
+    except SystemExit as stop:  # of argparse, with something printed
+        return stop.code
+
+
+def _discard_output() -> None:
+    """What is still buffered would be written, and fail again, at exit."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)

@@ -1,0 +1,142 @@
+"""Makes the paper's experiments again and reports them on one page."""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import List, Optional, Sequence
+
+from deformable_manipulation.commands.arguments import override
+from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.reproduction.jobs import JobFailed, run_jobs
+from deformable_manipulation.reproduction.plan import Plan
+from deformable_manipulation.ros.program import ProgramError
+from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_names
+
+NAME = "reproduce"
+REPORT = "report.html"
+DESCRIPTION = """Run the scenarios with the full formulation, the paper's, and the safety filter
+off; draw their data plots, overviews and RViz pictures; run small campaigns; and write one HTML
+page with all of it and the paper's execution times beside those of this machine. Without a display,
+in minutes."""
+EXAMPLES = """examples:
+  reproduce
+  reproduce rope_one_assistant rope_two_assistants --output output/ropes
+  reproduce --campaign-runs 200
+  reproduce rope_one_assistant --no-pictures --set simulation.duration=40
+"""
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Run the command; returns its exit status."""
+    arguments = _parse(argv)
+    try:
+        scenarios = _chosen(arguments.scenarios)
+        for name in scenarios:
+            load_scenario(name, arguments.set)
+        plan = _prepare(scenarios, arguments)
+    except ScenarioError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except ValueError as error:
+        return fail(NAME, str(error))
+    except OSError as error:
+        return fail(NAME, f"cannot write the report: {error}")
+    with interruptible():
+        try:
+            _make(plan)
+        except (JobFailed, ProgramError) as error:
+            return fail(NAME, f"{error}\nWhat the commands printed is in {plan.folder / 'logs'}.")
+        except OSError as error:
+            return fail(NAME, f"cannot write the report: {error}")
+        except KeyboardInterrupt as interrupt:
+            return exit_status(interrupt)
+    return 0
+
+
+def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog=NAME,
+        description=DESCRIPTION,
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "scenarios",
+        nargs="*",
+        metavar="SCENARIO",
+        help="names of this package's scenarios (default: all)",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY.PATH=VALUE",
+        type=override,
+        action="append",
+        default=[],
+        help="replace a value of every scenario; can be given several times",
+    )
+    parser.add_argument(
+        "--campaign-runs",
+        type=_count,
+        default=40,
+        metavar="N",
+        help="random runs of each rope and formulation; 0: none (%(default)s)",
+    )
+    parser.add_argument(
+        "--no-pictures",
+        dest="pictures",
+        action="store_false",
+        help="leave out RViz's pictures, which need ROS",
+    )
+    parser.add_argument("--output", metavar="DIR", help="default: output/reproduce_<time>")
+    return parser.parse_args(argv)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}': must be a whole number, 0 or more")
+    return int(text)
+
+
+def _chosen(names: Sequence[str]) -> List[str]:
+    known = scenario_names()
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise ValueError(
+            "there is no scenario '{}'; allowed: {}".format("', '".join(unknown), ", ".join(known))
+        )
+    return [name for name in known if name in names or not names]
+
+
+def _prepare(scenarios: List[str], arguments: argparse.Namespace) -> Plan:
+    default = Path("output") / "{}_{}".format(NAME, time.strftime("%Y%m%d_%H%M%S"))
+    folder = Path(arguments.output) if arguments.output else default
+    if folder.is_dir() and any(folder.iterdir()):
+        raise FileExistsError(f"{folder} is not empty; choose another --output")
+    (folder / "logs").mkdir(parents=True, exist_ok=True)
+    return Plan(folder, scenarios, arguments.set, arguments.campaign_runs, arguments.pictures)
+
+
+def _make(plan: Plan) -> None:
+    # Imported late: load what a mistake in the arguments does not need.
+    from deformable_manipulation.benchmarks.machine import describe_machine
+    from deformable_manipulation.campaign.workers import cores
+    from deformable_manipulation.reproduction.page import write_page
+
+    machine = describe_machine()
+    started = time.monotonic()
+    # Plots and runs go side by side; RViz and the campaigns take all cores by themselves.
+    for jobs, parallel in (
+        (plan.runs(), cores()),
+        (plan.figures(), cores()),
+        (plan.snapshots(), 1),
+        (plan.campaign_jobs(), 1),
+    ):
+        run_jobs(jobs, parallel, _say)
+    write_page(plan, plan.folder / REPORT, machine, time.monotonic() - started)
+    print(plan.folder / REPORT)
+
+
+def _say(text: str) -> None:
+    print(f"{NAME}: {text}", file=sys.stderr, flush=True)

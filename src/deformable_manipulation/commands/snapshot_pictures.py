@@ -1,0 +1,146 @@
+"""The pictures and the video that ``rviz_snapshot`` makes, once it is known of what."""
+
+import argparse
+import sys
+from functools import partial
+from pathlib import Path
+from typing import Iterator, Optional, Sequence, Tuple
+
+import numpy as np
+
+from deformable_manipulation.commands.progress import ProgressDisplay
+from deformable_manipulation.commands.snapshot_arguments import (
+    NAME,
+    OVERLAID,
+    SEPARATE,
+    SIDE_BY_SIDE,
+)
+from deformable_manipulation.commands.snapshot_source import SnapshotSource
+from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
+from deformable_manipulation.ros.label_marker import time_labels
+from deformable_manipulation.ros.picture import save_png
+from deformable_manipulation.ros.picture_layout import is_alike, labelled, overlaid, side_by_side
+from deformable_manipulation.ros.rviz_view import without
+from deformable_manipulation.ros.video_file import RATE, video_file
+
+VIDEO_LENGTH = 20.0  # s, unless a speed is given
+_ROW_LETTERS, _VIDEO_LETTERS = 1 / 12, 1 / 25  # of the pictures' height
+
+# Not shown where several times are in one picture: letters that would be too small to be read, and
+# what would hide other times. The trails are below the rest.
+_SMALL = ("agent_names", "copy_distances", "distances")
+_CROWDED = (*_SMALL, "copies")
+_TRAILS = "trails"
+_LOOKS = 15  # in a row, at a picture that may stay empty, for one at rest
+_MOVING = ("object", "object_lines", "agents")
+
+
+def picture_name(scenario: str, times: Sequence[float], layout: str = SEPARATE) -> str:
+    """A picture's file name, such as ``rope_t060.png`` or ``rope_t007.25_t060_overlaid.png``."""
+    texts = []
+    for time in times:
+        whole, _, fraction = f"{time:.3f}".partition(".")
+        fraction = fraction.rstrip("0")
+        texts.append("_t{:0>3}{}".format(whole, "." + fraction if fraction else ""))
+    return scenario + "".join(texts) + ("" if layout == SEPARATE else f"_{layout}") + ".png"
+
+
+def film_times(first: float, last: float, speed: Optional[float]) -> Tuple[np.ndarray, float]:
+    """The times [s] of a video's pictures, and the speed, as a multiple of the run's own."""
+    speed = speed or max(1.0, (last - first) / VIDEO_LENGTH)
+    count = int((last - first) * RATE / speed + 1e-9) + 1
+    return first + np.arange(count) * speed / RATE, speed
+
+
+class SnapshotPictures:
+    """Takes pictures in a studio and writes them.
+
+    Args:
+        source: what is shown.
+        studio: SnapshotStudio.
+        configuration: RViz's, as of YAML, for a bare view.
+        options: ``size``, ``output``, ``timeout`` of the command.
+    """
+
+    def __init__(
+        self, source: SnapshotSource, studio, configuration: dict, options: argparse.Namespace
+    ):
+        self._source = source
+        self._studio = studio
+        self._configuration = configuration
+        self._options = options
+        self._progress = ProgressDisplay(sys.stderr)
+
+    def take(self, times: Sequence[float], layout: str) -> None:
+        """Pictures at some times [s], increasing, one each or all in one.
+
+        Raises ProgramError, OSError.
+        """
+        if layout == OVERLAID:
+            self._save(self._overlaid(times), times, layout)
+        elif layout == SIDE_BY_SIDE:
+            height = round(_ROW_LETTERS * self._options.size[1])
+            pictures = [
+                labelled(picture, f"{time:g} s", height)
+                for time, picture in zip(times, self._pictures(times, self._without(*_SMALL)))
+            ]
+            self._save(side_by_side(pictures), times, layout)
+        else:
+            for time, picture in zip(times, self._pictures(times, self._configuration)):
+                self._save(picture, [time], layout)
+
+    def film(self, path: Path, speed: Optional[float]) -> None:
+        """A video of the whole run. Raises ProgramError, OSError."""
+        times, speed = film_times(*self._source.time_range, speed)
+        size = self._options.size
+        height = round(_VIDEO_LETTERS * size[1])
+        print(f"{NAME}: filming at {speed:g} times the run's speed", file=sys.stderr)
+        pictures = self._studio.film(self._configuration, times, self._options.timeout)
+        try:
+            with video_file(path, size) as add:
+                for number, (time, picture) in enumerate(zip(times, pictures), start=1):
+                    add(labelled(picture, f"{time:.1f} s", height))
+                    self._progress(number / len(times))
+        finally:
+            self._progress.close()
+        print(path, flush=True)
+
+    def _overlaid(self, times: Sequence[float]) -> np.ndarray:
+        pictures, places = [], []
+        for picture in self._pictures(times, self._without(*_CROWDED, _TRAILS)):
+            pictures.append(picture)
+            places.append(self._studio.leader)
+        print(f"{NAME}: taking pictures of what lies below and above them", file=sys.stderr)
+        self._studio.labels = time_labels(times, places)
+        targets = [f"target_{agent.name}" for agent in self._source.scenario.agents]
+        moving = (*_CROWDED, *_MOVING, *targets)
+        base, empty, labels = (
+            self._studio.take(
+                self._without(*moving, *hidden),
+                self._options.timeout,
+                # There may be no obstacle, which would tell that RViz has drawn anything.
+                shows=partial(is_alike, pictures[-1]),
+                same_looks=_LOOKS,
+            )
+            for hidden in ((LABELS,), (LABELS, _TRAILS), (_TRAILS,))
+        )
+        return overlaid(base, empty, pictures, labels)
+
+    def _without(self, *namespaces: str) -> dict:
+        return without(self._configuration, namespaces)
+
+    def _pictures(self, times: Sequence[float], configuration: dict) -> Iterator[np.ndarray]:
+        for time in times:
+            print(f"{NAME}: going to {time:g} s", file=sys.stderr)
+            try:
+                self._studio.run.go_to(time, self._progress)
+            finally:
+                self._progress.close()
+            print(f"{NAME}: taking the picture", file=sys.stderr)
+            yield self._studio.take(configuration, self._options.timeout)
+
+    def _save(self, picture: np.ndarray, times: Sequence[float], layout: str) -> None:
+        scenario = self._source.scenario.name
+        path = self._options.output / picture_name(scenario, times, layout)
+        save_png(picture, path, "{} at {} s".format(scenario, ", ".join(f"{t:g}" for t in times)))
+        print(path, flush=True)

@@ -1,0 +1,85 @@
+"""What pictures are taken of: a scenario, which is run for them, or a recorded run."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+
+from deformable_manipulation.recording import RunData, RunDataError, read_run
+from deformable_manipulation.recording.frames import Frames, read_frames
+from deformable_manipulation.recording.run_data import BAG_SUFFIXES, holds_run
+from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.scenario.files import find_scenario
+from deformable_manipulation.scenario.spec import Scenario
+
+
+@dataclass(frozen=True)
+class SnapshotSource:
+    """A scenario and, where it has been run already, the recording of that."""
+
+    scenario: Scenario
+    run: Optional[RunData] = None
+    frames: Optional[Frames] = None
+    file: Optional[Path] = None  # of the scenario, where it was read from one
+
+    @property
+    def time_range(self) -> Tuple[float, float]:
+        """The first and the last time [s] that can be shown."""
+        if self.frames is None:
+            return 0.0, self.scenario.simulation.duration
+        return self.run.time_range
+
+    def bounds(self) -> np.ndarray:
+        """The corners (2, 3) [m] of what there is to be seen."""
+        # Imported late: geometry of the obstacles.
+        from deformable_manipulation.ros.scene_view import planned_bounds, scene_bounds
+
+        if self.frames is None:
+            return planned_bounds(self.scenario)
+        return scene_bounds(self.scenario, self.frames.points, self.frames.agents)
+
+    def open(self, directory):
+        """The context manager of the run that is shown; ``directory`` is for its files."""
+        # Imported late: ROS.
+        from deformable_manipulation.ros.played_run import played_run
+        from deformable_manipulation.ros.stepped_run import stepped_run
+
+        if self.frames is None:
+            return stepped_run(self.scenario, directory)
+        return played_run(self.run, self.frames, directory)
+
+
+def read_source(
+    path: str, overrides: Sequence[Tuple[str, str]], namespace: Optional[str]
+) -> SnapshotSource:
+    """The scenario or run of a name or path.
+
+    Raises ScenarioError, RunDataError: it cannot be read, or cannot have such options.
+    """
+    if not _is_run(path):
+        if namespace is not None:
+            raise RunDataError("--namespace is for bags; a scenario has none")
+        file = find_scenario(path).resolve()
+        return SnapshotSource(load_scenario(path, overrides), file=file)
+    if overrides:
+        raise RunDataError(f"--set cannot change {path}, which has been run already")
+    run = read_run(path, namespace)
+    frames = read_frames(run)
+    return SnapshotSource(frames.scenario, run, frames)
+
+
+def _is_run(path: str) -> bool:
+    """Bags and folders, but not an empty folder called like a scenario of this package."""
+    if path.endswith(BAG_SUFFIXES):
+        return True
+    if not os.path.isdir(path):
+        return False
+    if holds_run(Path(path)):
+        return True
+    try:
+        find_scenario(path)
+    except ScenarioError:
+        return True
+    return False

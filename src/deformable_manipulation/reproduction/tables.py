@@ -1,0 +1,90 @@
+"""The report's tables, from what the runs and campaigns have recorded."""
+
+import json
+from typing import Dict, List, NamedTuple, Sequence
+
+from deformable_manipulation.recording import run_files
+from deformable_manipulation.reproduction.paper import PUBLISHED
+from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
+
+
+class Table(NamedTuple):
+    """A table of texts."""
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+def safety_table(plan: Plan) -> Table:
+    """What every run kept of its limits, in mm."""
+    header = (
+        ("scenario", "safety filter", "offset [mm]", "lowest distance [mm]")
+        + ("lowest overstretch margin [mm]", "lowest proximity margin [mm]")
+        + ("programs relaxed", "failed", "largest error at the end [mm]")
+    )
+    rows = []
+    for name in plan.scenarios:
+        for variant, (title, _) in VARIANTS.items():
+            summary = read_summary(plan, name, variant)
+            finals = [error["final"] for error in summary["tracking_error"].values()]
+            rows.append(
+                (name, title)
+                + tuple(
+                    millimetres(summary[key])
+                    for key in ("offset", "min_distance", "min_stretch_margin")
+                    + ("min_proximity_margin",)
+                )
+                + (str(summary["qp_relaxed"]), str(summary["qp_failed"]))
+                + (millimetres(max(finals, default=None)),)
+            )
+    return Table(header, rows)
+
+
+def time_table(plan: Plan) -> Table:
+    """Times of the paper and of the full runs here, in ms."""
+    header = ("scenario", "", "simulations", "minimum distance", "QP solver")
+    rows = []
+    for name in plan.scenarios:
+        if name in PUBLISHED:
+            paper = PUBLISHED[name]
+            times = (paper.simulation, paper.distance, paper.solver)
+            rows.append((name, "paper, average", *(f"{value:.1f}" for value in times)))
+        rows.append((name, "here, median", *_times(plan, name)))
+    return Table(header, rows)
+
+
+def campaign_table(plan: Plan) -> Table:
+    """What every campaign counted."""
+    header = (
+        ("scenario", "safety filter", "runs", "runs short of the offset", "by at most [mm]")
+        + ("runs overstretched", "by at most [mm]", "deadlocks", "programs failed")
+    )
+    rows = []
+    for name, variant in plan.campaigns():
+        path = plan.campaign_folder(name, variant) / "campaign.json"
+        summary = json.loads(path.read_text(encoding="utf-8"))["summary"]
+        cells = [name, VARIANTS[variant][0], str(summary["runs"])]
+        for kind in ("distance", "overstretch"):
+            violation = summary["violations"][kind]
+            cells += [str(violation["runs"]), millimetres(violation["worst"])]
+        rows.append((*cells, str(summary["deadlocks"]), str(summary["failed_programs"])))
+    return Table(header, rows)
+
+
+def read_summary(plan: Plan, scenario: str, variant: str) -> Dict[str, object]:
+    """The ``summary.json`` of a run."""
+    path = plan.run_folder(scenario, variant) / run_files.SUMMARY
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def millimetres(metres) -> str:
+    """A length [m] in mm, or a dash where there is none."""
+    if metres is None:
+        return "–"
+    return f"{1e3 * metres:.1f}" if abs(metres) >= 1e-4 else f"{1e3 * metres:.2g}"
+
+
+def _times(plan: Plan, scenario: str) -> List[str]:
+    timing = read_summary(plan, scenario, FULL)["timing"]
+    medians = [timing[part]["median_ms"] for part in ("simulation", "distance", "solver")]
+    return ["–" if value is None else f"{value:.3f}" for value in medians]

@@ -1,0 +1,136 @@
+"""A controller under ROS, with the assistants that it commands."""
+
+import threading
+
+import rospy
+from std_srvs.srv import SetBoolResponse, TriggerResponse
+from visualization_msgs.msg import MarkerArray
+
+from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.team import TeamController
+from deformable_manipulation.ros import node
+from deformable_manipulation.ros.assistant_link import AssistantLink
+from deformable_manipulation.ros.health import DecisionMonitor
+from deformable_manipulation.ros.live_parameters import LiveParameters
+from deformable_manipulation.ros.marker_publisher import MarkerPublisher
+from deformable_manipulation.ros.target_markers import target_markers
+
+_NO_STATE = "Nothing changed: there is no state that can be used; see controller_state."
+
+
+class Team:
+    """Assistants whose velocities one controller decides; which node it is in does not matter.
+
+    Reads the node's parameters ``~enabled``, ``~safety`` and ``~lockstep``.
+
+    Args:
+        scenario: the checked scenario.
+        names: of the assistants.
+        counter: the node's :class:`~.cycle_counter.CycleCounter`.
+
+    Raises:
+        ValueError: the scenario has no assistant of a name, or an unusable setting.
+    """
+
+    def __init__(self, scenario, names, counter):
+        self._scenario = scenario
+        self._lock = threading.RLock()  # services and messages come in different threads
+        self._controller = TeamController(scenario, names, rospy.get_param("~safety", True))
+        for name in names:
+            self._controller.set_enabled(name, rospy.get_param("~enabled", True))
+        self._warnings = node.Warnings()
+        self._answered = None  # newest state answered
+        self._observation = None  # of the newest state, while its inputs can be used
+        self._stopped = False
+        self._links = [AssistantLink(name, scenario.frame, counter) for name in names]
+        self._markers = MarkerPublisher(self._draw)
+        self._monitors = {name: DecisionMonitor() for name in names}
+        # Of one assistant they go by its name, of several commanded together by `team`.
+        self._live_parameters = LiveParameters(
+            scenario, names[0] if len(names) == 1 else "team", self._change_parameters
+        )
+        for link in self._links:
+            link.serve(self._enable, self._take_reference)
+        for link in self._links:
+            link.await_subscribers()
+        rospy.on_shutdown(self._stop)
+
+    @property
+    def reports(self):
+        """How the assistants fare, for publish_diagnostics."""
+        return {
+            f"{name} quadratic program": monitor.report
+            for name, monitor in self._monitors.items()
+        }
+
+    def decide(self, state, observation, fault=""):
+        """The Decisions that answer a state, by the assistants' names.
+
+        Args:
+            state: the ObjectState.
+            observation: what the controller sees of it; None: it cannot be used.
+            fault: a clause that says why not.
+        """
+        with self._lock:
+            if self._answered is not None and state.reset_count != self._answered.reset_count:
+                self._controller.reset()
+            self._answered = state
+            self._observation = observation
+            if observation is None:
+                return self._controller.wait(fault)
+            return self._controller.update(observation)
+
+    def send(self, state, decisions):
+        """Command what was decided on a state."""
+        with self._lock:
+            if not self._stopped:
+                for link in self._links:
+                    link.command(state, decisions[link.name].command)
+
+    def report(self, state, observation, decisions):
+        """Tell everybody else, who is in no hurry."""
+        for link in self._links:
+            decision = decisions[link.name]
+            self._monitors[link.name].decided(decision)
+            if decision.status == Status.WAITING:
+                self._warnings.warn(f"{link.name}: {decision.text}")
+            link.report(state, decision)
+        if observation is not None:
+            self._markers.show(state.header, observation.positions, decisions)
+
+    def _draw(self, header, positions, decisions):
+        leader = positions[self._scenario.leader_index]
+        drawn = MarkerArray()
+        for name, decision in decisions.items():
+            drawn.markers += target_markers(header, name, leader, decision.target).markers
+        return drawn
+
+    def _enable(self, name, request):
+        with self._lock:
+            if request.data and self._observation is None:
+                return SetBoolResponse(False, _NO_STATE)
+            self._controller.set_enabled(name, request.data)
+        return SetBoolResponse(True, "Follows the leader." if request.data else "Stands still.")
+
+    def _change_parameters(self, scenario):
+        with self._lock:
+            self._controller.set_parameters(scenario)
+
+    def _take_reference(self, name, _request):
+        with self._lock:
+            if self._observation is None:
+                return TriggerResponse(False, _NO_STATE)
+            try:
+                self._controller.take_reference(name, self._observation)
+            except ValueError as error:
+                return TriggerResponse(False, f"Nothing changed: {error}.")
+        return TriggerResponse(True, "Follows the leader at the present relative position.")
+
+    def _stop(self):
+        """The last command is to stand still."""
+        with self._lock:
+            self._stopped = True
+            if self._answered is not None:
+                for link in self._links:
+                    link.command(self._answered, (0.0, 0.0, 0.0))
+                node.await_sending()

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <vector>
+
+#include "deformable_manipulation/pbd/body.h"
+#include "fabric_constraints.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! How a fabric at rest follows its held vertices, by implicit differentiation: the forces on the free vertices stay
+//! zero, K dx + K_h dx_h = 0 with the second derivatives of the energy of springs and folds.
+class FabricResponse {
+ public:
+  FabricResponse(int vertices, const FabricConstraints& constraints, const std::vector<HeldPoint>& holds);
+
+  //! @param constraints  those given before, up to date
+  //! @param positions    [N x 3] m, of a shape near to an equilibrium
+  //! @param to           [holds x N x 3 x 3] d vertex / d held vertex; written only where the result is VALID
+  ResponseStatus compute(const FabricConstraints& constraints, const double* positions, double* to);
+
+ private:
+  using Sparse = Eigen::SparseMatrix<double>;
+
+  void makePattern(const FabricConstraints& constraints);
+  void assemble(const FabricConstraints& constraints, const double* positions);
+  void addSpring(const int* at, double spring, double rest_length, const double* positions);
+  void addFold(const HingeConstraint& hinge, double spring);
+  void add(int vertex, int other, const Eigen::Matrix3d& block);
+  bool solve();
+  void write(double* to) const;
+
+  std::vector<int> free_;  // [N] place among the free vertices, or -1
+  std::vector<int> held_;  // [N] place among the holds, or -1
+  int free_count_ = 0;
+  int held_count_ = 0;
+  std::vector<std::vector<int>> rows_;  // [free] free vertices in the same spring or fold, sorted
+  Sparse stiffness_;                    // K, N/m
+  Eigen::MatrixXd right_;               // -K_h, N/m
+  Eigen::MatrixXd moved_;               // [3 free x 3 holds]
+  Eigen::SimplicialLDLT<Sparse> solver_;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,39 @@
+"""Closed loop on objects that follow their held points at once, one cycle of delay."""
+
+import control_builders as build
+import numpy as np
+
+from deformable_manipulation.control.team import TeamController, teams
+from deformable_manipulation.leader import LeaderController
+
+GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
+
+
+class Run:
+    """Histories of a run: time first.
+
+    ``body``: a :class:`~control_builders.LinearObject`; default: a chain that hangs through by
+    ``sag`` [m].
+    """
+
+    def __init__(self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, **settings):
+        controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]
+        leader = LeaderController(scenario)
+        body = body or build.hanging_chain(len(scenario.agents), sag)
+        positions = np.array([agent.start for agent in scenario.agents])
+        acting = np.zeros_like(positions)
+        states, decisions = [], []
+        for k in range(round(duration / scenario.cycle_time)):
+            time = k * scenario.cycle_time
+            observation = build.observe(time, positions, body, obstacle.at(time), cycle=k)
+            decided = [each for team in controllers for each in team.update(observation).values()]
+            states.append(positions)
+            decisions.append(decided)
+            commands = [leader.update(time, positions[0])] + [each.command for each in decided]
+            positions = positions + scenario.cycle_time * acting
+            acting = np.array(commands)
+        self.positions = np.array(states)
+        self.decisions = decisions
+
+    def all(self, field):
+        return np.array([[getattr(each, field) for each in row] for row in self.decisions])

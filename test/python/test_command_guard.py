@@ -1,0 +1,41 @@
+"""Commands whose output cannot be written, or which are interrupted, end in one line."""
+
+import signal
+import subprocess
+import sys
+import types
+
+import pytest
+
+from deformable_manipulation.commands.guard import run_command
+
+CHECK = [sys.executable, "-m", "deformable_manipulation.commands", "check_scenario"]
+CHECK += ["rope_one_assistant", "--resolved"]
+
+
+def test_a_full_disk():
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(CHECK, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert ended.returncode == 1
+    assert ended.stderr == "check_scenario: cannot write the output: No space left on device\n"
+
+
+def test_a_reader_that_has_gone():
+    with subprocess.Popen(CHECK, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        run.stdout.close()
+        assert run.stderr.read() == ""
+    assert run.returncode == 128 + signal.SIGPIPE
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interruption(number, monkeypatch, capsys):
+    command = types.ModuleType("a_command")
+    command.main = lambda arguments: signal.raise_signal(number)
+    monkeypatch.setitem(sys.modules, "deformable_manipulation.commands.a_command", command)
+    assert run_command("a_command", []) == 128 + number
+    assert capsys.readouterr() == ("", "")
+
+
+def test_the_exit_status_of_wrong_usage(capsys):
+    assert run_command("check_scenario", ["a.yaml", "--nonsense"]) == 2
+    assert "unrecognized arguments: --nonsense" in capsys.readouterr().err
