@@ -7,6 +7,8 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
 
+_NONE = "–"
+
 
 class Table(NamedTuple):
     """A table of texts."""
@@ -16,7 +18,7 @@ class Table(NamedTuple):
 
 
 def safety_table(plan: Plan) -> Table:
-    """What every run kept of its limits, in mm."""
+    """What the paper's runs and those here kept of their limits, in mm."""
     header = (
         ("scenario", "safety filter", "offset [mm]", "lowest distance [mm]")
         + ("lowest overstretch margin [mm]", "lowest proximity margin [mm]")
@@ -24,6 +26,10 @@ def safety_table(plan: Plan) -> Table:
     )
     rows = []
     for name in plan.scenarios:
+        if name in PUBLISHED:
+            paper = PUBLISHED[name]
+            known = (millimetres(paper.offset), millimetres(paper.min_distance))
+            rows.append((name, "reported in the paper", *known, *[_NONE] * (len(header) - 4)))
         for variant, (title, _) in VARIANTS.items():
             summary = read_summary(plan, name, variant)
             finals = [error["final"] for error in summary["tracking_error"].values()]
@@ -45,9 +51,8 @@ def time_table(plan: Plan) -> Table:
     header = ("scenario", "", "simulations", "minimum distance", "QP solver")
     rows = []
     for name in plan.scenarios:
-        if name in PUBLISHED:
-            paper = PUBLISHED[name]
-            times = (paper.simulation, paper.distance, paper.solver)
+        times = PUBLISHED[name].times if name in PUBLISHED else None
+        if times:
             rows.append((name, "paper, average", *(f"{value:.1f}" for value in times)))
         rows.append((name, "here, median", *_times(plan, name)))
     return Table(header, rows)
@@ -80,11 +85,11 @@ def read_summary(plan: Plan, scenario: str, variant: str) -> Dict[str, object]:
 def millimetres(metres) -> str:
     """A length [m] in mm, or a dash where there is none."""
     if metres is None:
-        return "–"
+        return _NONE
     return f"{1e3 * metres:.1f}" if abs(metres) >= 1e-4 else f"{1e3 * metres:.2g}"
 
 
 def _times(plan: Plan, scenario: str) -> List[str]:
     timing = read_summary(plan, scenario, FULL)["timing"]
     medians = [timing[part]["median_ms"] for part in ("simulation", "distance", "solver")]
-    return ["–" if value is None else f"{value:.3f}" for value in medians]
+    return [_NONE if value is None else f"{value:.3f}" for value in medians]
