@@ -8,6 +8,7 @@ from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
 
 _NONE = "–"
+_NEGLIGIBLE = 1e-6  # m
 
 
 class Table(NamedTuple):
@@ -20,7 +21,7 @@ class Table(NamedTuple):
 def safety_table(plan: Plan) -> Table:
     """What the paper's runs and those here kept of their limits, in mm."""
     header = (
-        ("scenario", "safety filter", "offset [mm]", "lowest distance [mm]")
+        ("scenario", "formulation", "offset [mm]", "lowest distance [mm]")
         + ("lowest overstretch margin [mm]", "lowest proximity margin [mm]")
         + ("programs relaxed", "failed", "largest error at the end [mm]")
     )
@@ -61,7 +62,7 @@ def time_table(plan: Plan) -> Table:
 def campaign_table(plan: Plan) -> Table:
     """What every campaign counted."""
     header = (
-        ("scenario", "safety filter", "runs", "runs short of the offset", "by at most [mm]")
+        ("scenario", "formulation", "runs", "runs short of the offset", "by at most [mm]")
         + ("runs overstretched", "by at most [mm]", "deadlocks", "programs failed")
     )
     rows = []
@@ -86,7 +87,10 @@ def millimetres(metres) -> str:
     """A length [m] in mm, or a dash where there is none."""
     if metres is None:
         return _NONE
-    return f"{1e3 * metres:.1f}" if abs(metres) >= 1e-4 else f"{1e3 * metres:.2g}"
+    if 0.0 < abs(metres) < _NEGLIGIBLE:
+        return f"< {1e3 * _NEGLIGIBLE:g}"
+    digits = 1 if abs(metres) >= 1e-4 else 3
+    return f"{1e3 * metres:.{digits}f}"
 
 
 def _times(plan: Plan, scenario: str) -> List[str]:
