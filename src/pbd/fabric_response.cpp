@@ -10,6 +10,9 @@ namespace {
 // about what comes after.
 constexpr double kLargestResponse = 10.0;
 
+// Calls for which the last derivative counts on while the fabric snaps.
+constexpr int kSnapLasts = 300;
+
 Eigen::Map<const Vector3> vertexIn(const double* positions, int vertex) {
   return Eigen::Map<const Vector3>(positions + 3 * vertex);
 }
@@ -65,7 +68,8 @@ void FabricResponse::makePattern(const FabricConstraints& constraints) {
 
 ResponseStatus FabricResponse::compute(const FabricConstraints& constraints, const double* positions, double* to) {
   assemble(constraints, positions);
-  if (free_count_ > 0 && !solve()) {
+  missed_ = free_count_ == 0 || solve() ? 0 : missed_ + 1;
+  if (missed_ > (moved_.size() > 0 ? kSnapLasts : 0)) {
     return ResponseStatus::UNSTABLE;
   }
   write(to);
@@ -133,8 +137,12 @@ bool FabricResponse::solve() {
   if (solver_.info() != Eigen::Success || !(solver_.vectorD().minCoeff() > 0.0)) {
     return false;
   }
-  moved_ = solver_.solve(right_);
-  return moved_.cwiseAbs().maxCoeff() < kLargestResponse;
+  solution_ = solver_.solve(right_);
+  if (!(solution_.cwiseAbs().maxCoeff() < kLargestResponse)) {
+    return false;
+  }
+  moved_.swap(solution_);
+  return true;
 }
 
 void FabricResponse::write(double* to) const {

@@ -15,6 +15,7 @@ class FabricResponse {
  public:
   FabricResponse(int vertices, const FabricConstraints& constraints, const std::vector<HeldPoint>& holds);
 
+  //! While the fabric snaps from one shape to another, the last derivative before counts on for some calls.
   //! @param constraints  those given before, up to date
   //! @param positions    [N x 3] m, of a shape near to an equilibrium
   //! @param to           [holds x N x 3 x 3] d vertex / d held vertex; written only where the result is VALID
@@ -38,7 +39,9 @@ class FabricResponse {
   std::vector<std::vector<int>> rows_;  // [free] free vertices in the same spring or fold, sorted
   Sparse stiffness_;                    // K, N/m
   Eigen::MatrixXd right_;               // -K_h, N/m
-  Eigen::MatrixXd moved_;               // [3 free x 3 holds]
+  Eigen::MatrixXd solution_;
+  Eigen::MatrixXd moved_;  // [3 free x 3 holds] the last solution that was stable
+  int missed_ = 0;         // calls since that
   Eigen::SimplicialLDLT<Sparse> solver_;
 };
 

@@ -42,7 +42,8 @@ class Fabric final : public Body {
   Wrench wrench(int particle) const override;
 
   //! At the present shape, which is near an equilibrium where it is not moving fast. NOT_CONVERGED before the first
-  //! step after a change of holds or material; UNSTABLE where the fabric is about to snap to another shape.
+  //! step after a change of holds or material. While the fabric snaps to another shape the last response counts on for
+  //! up to 300 calls; then it is UNSTABLE.
   ResponseStatus response(double* to) override;
   void layOut() override;
   void points(double* to) const override;

@@ -106,6 +106,18 @@ def test_a_fabric_held_nowhere_or_about_to_buckle_has_no_response(scenario):
     assert "holds" in simulation.response()
 
 
+def test_the_last_response_counts_on_for_a_while_when_the_fabric_buckles(scenario):
+    simulation = make_simulation(scenario, copies=False)
+    before = simulation.response()
+    for agent in (1, 3):
+        simulation.set_command(agent, (-2.0, 0.0, 0.0))
+    for _ in range(3):  # by 6 cm, which presses the edges at the corners together
+        simulation.advance()
+    answers = [simulation.response() for _ in range(310)]
+    np.testing.assert_array_equal(answers[0], before)
+    assert "not stable" in answers[-1]
+
+
 def test_controllers_take_the_response_where_it_is_wanted():
     scenario = load_scenario(NAME, [("controller.jacobian", "equilibrium")])
     decisions = ClosedLoop(scenario).step().decisions.values()
