@@ -63,7 +63,7 @@ class StateAnswers:
         return [team.decide(state, observation, fault) for team in self._teams]
 
     def _send(self, state, observation, decisions):
-        # Whoever sends lets other threads go first: all commands before all reports.
+        # Commands are in a hurry, reports are not.
         for team, decided in zip(self._teams, decisions):
             team.send(state, decided)
         for team, decided in zip(self._teams, decisions):
