@@ -14,8 +14,8 @@ namespace {
 constexpr double kRedrawPeriod = 0.1;  // s, for viewers that come late
 constexpr int kEveryState = 0;         // the queue has no end: trails are of all states
 
-void draw(ros::NodeHandle& node, const dm::ObjectShape& shape) {
-  dm::Visualization visualization(node, shape, "");
+void draw(ros::NodeHandle& node, const dm::SimulatorScenario& scenario) {
+  dm::Visualization visualization(node, dm::shapeOf(scenario.object), scenario.leader(), "");
   dm::ObjectState::ConstPtr newest;
   const auto subscriber = node.subscribe<dm::ObjectState>("state", kEveryState, [&](const auto& state) {
     newest = state;
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   try {
-    draw(node, dm::shapeOf(dm::readScenario(scenario).object));
+    draw(node, dm::readScenario(scenario));
   } catch (const dm::pbd::ParameterError& error) {
     ROS_FATAL_STREAM("The scenario cannot be drawn:\n" << error.what());
     return 1;

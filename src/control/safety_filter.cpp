@@ -40,10 +40,7 @@ std::array<double, TIERS> penaltiesOf(const Priority& priority) {
 
 SafetyFilter::SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority, bool relaxation)
     : penalties_(penaltiesOf(priority)), relaxation_(relaxation) {
-  if (weights.size() == 0 || !weights.allFinite() || !(weights.array() > 0.0).all()) {
-    throw std::invalid_argument("controller.weights: allowed are positive finite numbers");
-  }
-  squares_ = (weights / weights.maxCoeff()).cwiseAbs2();
+  setWeights(weights);
   solver_ = [this](const QuadraticProgram& program, Eigen::VectorXd& x) {
     if (native_.solve(program) != DualActiveSet::Outcome::OPTIMAL) {
       return false;
@@ -51,6 +48,13 @@ SafetyFilter::SafetyFilter(const Eigen::VectorXd& weights, const Priority& prior
     x = native_.solution();
     return true;
   };
+}
+
+void SafetyFilter::setWeights(const Eigen::VectorXd& weights) {
+  if (weights.size() == 0 || !weights.allFinite() || !(weights.array() > 0.0).all()) {
+    throw std::invalid_argument("controller.weights: allowed are positive finite numbers");
+  }
+  squares_ = (weights / weights.maxCoeff()).cwiseAbs2();
 }
 
 const Filtered& SafetyFilter::filter(const Eigen::VectorXd& nominal, const ConstraintRows& rows,

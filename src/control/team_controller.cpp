@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace deformable_manipulation {
 namespace control {
@@ -41,13 +42,34 @@ TeamController::TeamController(const ControllerParameters& p)
   for (const int agent : p.commanded) {
     members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
   }
-  kept_ = p.smoothing > 0.0 ? std::exp(-p.cycle_time / p.smoothing) : 0.0;
-  filter_.setAnticipation((1.0 - kept_) * ANTICIPATION_WEIGHT);
+  setSmoothing();
   decisions_.resize(members_.size());
   for (Eigen::VectorXd* vector : {&nominal_, &lower_, &upper_}) {
     vector->setZero(3 * size());
   }
   reset();
+}
+
+void TeamController::setSmoothing() {
+  kept_ = parameters_.smoothing > 0.0 ? std::exp(-parameters_.cycle_time / parameters_.smoothing) : 0.0;
+  filter_.setAnticipation((1.0 - kept_) * ANTICIPATION_WEIGHT);
+}
+
+void TeamController::setParameters(const ControllerParameters& p) {
+  const auto agents = static_cast<Eigen::Index>(positions_.size());
+  if (p.commanded != parameters_.commanded || p.leader != parameters_.leader ||
+      p.assistants != parameters_.assistants || p.overstretch.limits.rows() != agents ||
+      p.proximity.limits.rows() != agents) {
+    throw std::invalid_argument("parameters of other agents");
+  }
+  filter_.setWeights(p.weights.replicate(p.commanded.size(), 1));
+  const Formulation formulation = parameters_.formulation;
+  parameters_ = p;
+  parameters_.formulation = formulation;
+  setSmoothing();
+  collision_ = CollisionBarrier(p.commanded, p.assistants, p.collision, p.max_velocity, formulation);
+  overstretch_ = makePair(PairBarrier::Kind::OVERSTRETCH, parameters_, p.overstretch);
+  proximity_ = makePair(PairBarrier::Kind::PROXIMITY, parameters_, p.proximity);
 }
 
 void TeamController::reset() {

@@ -32,6 +32,14 @@ void requireAgents(const Body& body, const std::vector<Agent>& agents, Parameter
   }
 }
 
+std::vector<int> idsOf(const Body& body) {
+  std::vector<int> ids;
+  for (const PerturbedCopy& copy : body.copies()) {
+    ids.push_back(copy.id);
+  }
+  return ids;
+}
+
 }  // namespace
 
 void Clock::check() const {
@@ -101,10 +109,10 @@ void Simulation::advance() {
 void Simulation::reset() {
   body_ = start_body_->clone();
   states_ = start_states_;
-  if (material_changed_) {
+  if (start_changed_) {
     settle();
     start_body_ = body_->clone();
-    material_changed_ = false;
+    start_changed_ = false;
   }
   cycle_ = 0;
   ++reset_count_;
@@ -127,6 +135,34 @@ void Simulation::removePerturbations(const std::vector<int>& ids) {
     }
     body_->removeCopy(id);
   }
+}
+
+void Simulation::setPerturbations(const std::vector<Perturbation>& perturbations) {
+  std::unique_ptr<Body> start = start_body_->clone();
+  std::vector<AgentState> start_states = start_states_;
+  for (AgentState& start_state : start_states) {
+    start_state.displacements.clear();
+  }
+  const std::vector<int> before = idsOf(*body_);
+  std::vector<int> added;
+  try {
+    for (const Perturbation& perturbation : perturbations) {
+      AgentState& displaced = start_states.at(static_cast<std::size_t>(perturbation.agent));
+      start->addCopy(displaced.particle, perturbation.displacement);
+      displaced.displacements.push_back(perturbation.displacement);
+      added.push_back(addPerturbation(perturbation));
+    }
+  } catch (const std::logic_error&) {
+    removePerturbations(added);
+    throw;
+  }
+  removePerturbations(before);
+  for (int id : idsOf(*start_body_)) {
+    start->removeCopy(id);
+  }
+  start_body_ = std::move(start);
+  start_states_ = std::move(start_states);
+  start_changed_ = true;
 }
 
 void Simulation::clearPerturbations(int agent) {
@@ -172,7 +208,7 @@ void Simulation::hold(int agent, int particle, Hold type) {
 void Simulation::setMaterial(const std::vector<MaterialParameter>& parameters) {
   body_->setMaterial(parameters);
   start_body_->setMaterial(parameters);
-  material_changed_ = true;
+  start_changed_ = true;
 }
 
 int Simulation::agentOf(int particle) const {

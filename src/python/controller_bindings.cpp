@@ -100,7 +100,7 @@ CollisionParameters toCollision(const py::dict& given) {
   return collision;
 }
 
-std::unique_ptr<BoundController> makeController(const py::dict& given) {
+ControllerParameters toParameters(const py::dict& given) {
   ControllerParameters p;
   read(given, "commanded", p.commanded);
   read(given, "leader", p.leader);
@@ -120,7 +120,11 @@ std::unique_ptr<BoundController> makeController(const py::dict& given) {
   p.collision = toCollision(given["collision"].cast<py::dict>());
   p.overstretch = toPair(given["overstretch"].cast<py::dict>());
   p.proximity = toPair(given["proximity"].cast<py::dict>());
-  auto bound = std::make_unique<BoundController>(p);
+  return p;
+}
+
+std::unique_ptr<BoundController> makeController(const py::dict& given) {
+  auto bound = std::make_unique<BoundController>(toParameters(given));
   if (!given["solver"].is_none()) {
     bound->controller.setSolver(solverFromPython(given["solver"]));
   }
@@ -161,6 +165,10 @@ void bindController(py::module_& module) {
             bound.controller.setEnabled(checked(bound, member), enabled);
           },
           py::arg("member"), py::arg("enabled"), "False answers every state with zero velocity.")
+      .def(
+          "set_parameters",
+          [](BoundController& bound, const py::dict& given) { bound.controller.setParameters(toParameters(given)); },
+          py::arg("parameters"), "Of the same agents; formulation, priority and solver stay. Raises ValueError.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
       .def(

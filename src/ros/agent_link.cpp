@@ -98,6 +98,20 @@ pbd::Twist AgentLink::commanded() const {
   return commands_.command(now, timeout_);
 }
 
+std::string AgentLink::fault() const {
+  const ros::Time now = ros::Time::now();
+  if (driven_by_ == DrivenBy::POSE) {
+    return poses_.fresh(now) ? "" : "no pose for more than " + seconds(timeout_);
+  }
+  if (!commands_.known()) {
+    return "no command yet";
+  }
+  if (presentSenders().size() > 1) {
+    return "commands from " + joined(presentSenders());
+  }
+  return !lockstep_ && commands_.timedOut(now, timeout_) ? "no command for more than " + seconds(timeout_) : "";
+}
+
 void AgentLink::reset() { commands_.reset(); }
 
 //! Who sends commands at present. The number of connections does not tell: that to a node that was

@@ -43,6 +43,9 @@ class AgentLink {
   //! that is not lost. Says why not.
   bool isTrue(const pbd::Pose& present) const;
 
+  //! A clause that says why the agent's input is not used at present; empty if it is.
+  std::string fault() const;
+
   bool followsPoses() const { return driven_by_ == DrivenBy::POSE; }
 
   //! Velocity [m/s] of the agent: measured and filtered, or that of its simulated motion.

@@ -12,8 +12,8 @@ namespace deformable_manipulation {
 //! The newest acceptable velocity command of one agent.
 //!
 //! A command answers the state whose stamp it carries. One that is not finite, faster than any agent
-//! moves, in another frame, or does not answer a state newer than the last accepted one is dropped. A second answer to the
-//! same state is taken if it is to stand still: who leaves or loses its inputs stops at once.
+//! moves, in another frame, or does not answer a state newer than the last accepted one is dropped. A second answer to
+//! the same state is taken if it is to stand still: who leaves or loses its inputs stops at once.
 class CommandInbox {
  public:
   static constexpr double kLargestSpeed = 10.0;         // m/s
@@ -38,6 +38,9 @@ class CommandInbox {
 
   //! The newest command whatever its age, or rest if there is none.
   pbd::Twist command() const { return received_ ? twist_ : pbd::Twist(); }
+
+  //! Whether a command has been accepted.
+  bool known() const { return received_; }
 
   //! Forgets all commands.
   void reset() { received_ = false; }

@@ -11,6 +11,10 @@ std_msgs::ColorRGBA toColor(double red, double green, double blue, double alpha)
   return result;
 }
 
+std_msgs::ColorRGBA agentColor(bool is_leader, double alpha) {
+  return is_leader ? toColor(0.95, 0.6, 0.1, alpha) : toColor(0.1, 0.5, 0.6, alpha);
+}
+
 geometry_msgs::Point toPoint(const double* xyz) {
   geometry_msgs::Point result;
   result.x = xyz[0];

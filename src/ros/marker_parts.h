@@ -10,6 +10,9 @@ namespace deformable_manipulation {
 
 std_msgs::ColorRGBA toColor(double red, double green, double blue, double alpha);
 
+//! The leader and the assistants tell apart by their colours.
+std_msgs::ColorRGBA agentColor(bool is_leader, double alpha);
+
 //! From three numbers [m].
 geometry_msgs::Point toPoint(const double* xyz);
 

@@ -21,9 +21,9 @@ std_msgs::ColorRGBA axisColor(const double* displacement) {
   return toColor(axis == 0 ? 0.9 : 0.1, axis == 1 ? 0.7 : 0.1, axis == 2 ? 0.9 : 0.1, 0.6);
 }
 
-void drawAgent(const ObjectState& state, int index, visualization_msgs::MarkerArray& array) {
+void drawAgent(const ObjectState& state, int index, bool is_leader, visualization_msgs::MarkerArray& array) {
   const double* at = &state.agent_positions[3 * index];
-  Marker ball = emptyMarker(state, "agents", index, Marker::SPHERE, toColor(0.95, 0.6, 0.1, 1.0));
+  Marker ball = emptyMarker(state, "agents", index, Marker::SPHERE, agentColor(is_leader, 1.0));
   ball.pose.position = toPoint(at);
   ball.scale.x = ball.scale.y = ball.scale.z = kAgentDiameter;
   array.markers.push_back(ball);
@@ -51,7 +51,8 @@ visualization_msgs::MarkerArray ObjectMarkers::draw(const ObjectState& state) {
   }
   copies_drawn_ = copies;
   for (std::size_t i = 0; i < state.agents.size(); ++i) {
-    drawAgent(state, static_cast<int>(i), array);
+    const int agent = static_cast<int>(i);
+    drawAgent(state, agent, agent == leader_, array);
   }
   return array;
 }

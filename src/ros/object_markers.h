@@ -13,12 +13,14 @@ namespace deformable_manipulation {
 //! z blue), and the agents with their names.
 class ObjectMarkers {
  public:
-  explicit ObjectMarkers(const ObjectShape& shape) : drawing_(makeDrawing(shape)) {}
+  //! @param leader  its index among the agents
+  ObjectMarkers(const ObjectShape& shape, int leader) : leader_(leader), drawing_(makeDrawing(shape)) {}
 
   //! Copies that are gone since the last call are deleted.
   visualization_msgs::MarkerArray draw(const ObjectState& state);
 
  private:
+  int leader_;
   std::unique_ptr<ObjectDrawing> drawing_;
   std::size_t copies_drawn_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "scenario_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "deformable_manipulation/pbd/errors.h"
@@ -7,21 +8,6 @@
 
 namespace deformable_manipulation {
 namespace {
-
-//! Per assistant and axis a copy on one side, or one on each.
-void addPerturbations(const ScenarioSection& controller, SimulatorScenario& scenario) {
-  const pbd::Vector3 size = controller.vector<3>("perturbation");
-  const bool central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
-  for (std::size_t agent = 0; agent < scenario.agents.size(); ++agent) {
-    for (int axis = 0; scenario.is_assistant[agent] && axis < 3; ++axis) {
-      const pbd::Vector3 displacement = size[axis] * pbd::Vector3::Unit(axis);
-      scenario.perturbations.push_back({static_cast<int>(agent), displacement});
-      if (central) {
-        scenario.perturbations.push_back({static_cast<int>(agent), -displacement});
-      }
-    }
-  }
-}
 
 void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
   const ScenarioSection agents = section.section("agents");
@@ -40,6 +26,24 @@ void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
 
 }  // namespace
 
+int SimulatorScenario::leader() const {
+  return static_cast<int>(std::find(is_assistant.begin(), is_assistant.end(), false) - is_assistant.begin());
+}
+
+std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size) {
+  std::vector<pbd::Perturbation> perturbations;
+  for (std::size_t agent = 0; agent < scenario.agents.size(); ++agent) {
+    for (int axis = 0; scenario.is_assistant[agent] && axis < 3; ++axis) {
+      const pbd::Vector3 displacement = size[axis] * pbd::Vector3::Unit(axis);
+      perturbations.push_back({static_cast<int>(agent), displacement});
+      if (scenario.central) {
+        perturbations.push_back({static_cast<int>(agent), -displacement});
+      }
+    }
+  }
+  return perturbations;
+}
+
 SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   pbd::ParameterCheck check;
   SimulatorScenario scenario;
@@ -50,7 +54,8 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   scenario.frame = root.text("frame");
   scenario.object = readObject(root.section("object"), simulation);
   readAgents(root, scenario);
-  addPerturbations(controller, scenario);
+  scenario.perturbation = controller.vector<3>("perturbation");
+  scenario.central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
   scenario.exact_response = controller.choice<bool>("jacobian", {{"perturbed_copies", false}, {"equilibrium", true}});
   scenario.clock.time_step = simulation.number("time_step");
   scenario.clock.substeps = simulation.integer("substeps");

@@ -17,15 +17,22 @@ struct SimulatorScenario {
   std::string frame;
   ObjectParameters object;
   std::vector<pbd::Agent> agents;
-  std::vector<bool> is_assistant;   // one per agent
-  std::vector<DrivenBy> driven_by;  // one per agent
-  std::vector<pbd::Perturbation> perturbations;
-  bool exact_response = false;  // the controllers want the exact response of the object
+  std::vector<bool> is_assistant;                           // one per agent
+  std::vector<DrivenBy> driven_by;                          // one per agent
+  pbd::Vector3 perturbation = pbd::Vector3::Constant(0.1);  // [m] displacement of the assistants' copies per axis
+  bool central = true;                                      // copies on both sides
+  bool exact_response = false;                              // the controllers want the exact response of the object
   pbd::Clock clock;
   double duration = 0.0;         // s
   double command_timeout = 0.0;  // s
   double pose_smoothing = 0.0;   // s
+
+  //! Index of the leader among the agents.
+  int leader() const;
 };
+
+//! Per assistant and axis a copy on one side, or one on each. @param size [m] of the displacement along each axis
+std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size);
 
 //! Reads the parameter `scenario` as check_scenario --resolved writes it.
 //! @throw pbd::ParameterError with every key that is missing or of the wrong type

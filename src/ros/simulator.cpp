@@ -32,10 +32,14 @@ void spinFor(double seconds) { ros::getGlobalCallbackQueue()->callAvailable(ros:
 Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       options_(options),
-      simulation_(makeBody(scenario.object), scenario.agents, scenario.perturbations, scenario.clock),
+      simulation_(makeBody(scenario.object), scenario.agents, perturbationsOf(scenario, scenario.perturbation),
+                  scenario.clock),
       object_services_(node_, simulation_),
+      live_perturbation_(scenario_, simulation_),
       control_(node_),
-      visualization_(node_, shapeOf(scenario.object), options.tf_prefix) {
+      visualization_(node_, shapeOf(scenario.object), scenario.leader(), options.tf_prefix),
+      diagnostics_(node_, simulation_, links_, control_, !shapeOf(scenario.object).triangles.empty(),
+                   options.lockstep) {
   if (!simulation_.settled()) {
     ROS_WARN(
         "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "
@@ -70,10 +74,12 @@ void Simulator::run() {
       }
     }
     control_.countCycle();
+    const SteadyClock::time_point started = SteadyClock::now();
     if (agentsAreTrue()) {
       publish();
     }
     simulation_.advance();
+    diagnostics_.countCycle(std::chrono::duration<double>(SteadyClock::now() - started).count());
     options_.lockstep ? awaitCommands() : awaitTick();
     applyInputs();
     awaitPermission();
@@ -148,6 +154,7 @@ void Simulator::addMeasuredVelocities() {
 
 void Simulator::addResponse() {
   const pbd::ResponseStatus status = fillSensitivities(simulation_, state_);
+  diagnostics_.countResponse(status);
   if (status != pbd::ResponseStatus::VALID) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
                              "The exact response of the object is not known, its perturbed copies take "
@@ -199,6 +206,7 @@ void Simulator::awaitTick() {
   next_tick_ += seconds(scenario_.clock.cycleTime());
   if (SteadyClock::now() > next_tick_) {
     ++overruns_;
+    diagnostics_.countOverrun();
     next_tick_ = SteadyClock::now();
     ROS_WARN_THROTTLE(kWarningPeriod,
                       "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.", overruns_,

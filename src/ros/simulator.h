@@ -11,9 +11,11 @@
 #include "agent_link.h"
 #include "deformable_manipulation/ObjectState.h"
 #include "deformable_manipulation/pbd/simulation.h"
+#include "live_perturbation.h"
 #include "object_services.h"
 #include "run_control.h"
 #include "scenario_reader.h"
+#include "simulator_diagnostics.h"
 #include "visualization.h"
 
 namespace deformable_manipulation {
@@ -65,8 +67,10 @@ class Simulator {
   ros::Subscriber recorder_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
+  LivePerturbation live_perturbation_;
   RunControl control_;
   Visualization visualization_;
+  SimulatorDiagnostics diagnostics_;
 
   ObjectState state_;
   long published_ = 0;  // states since the start, over all resets

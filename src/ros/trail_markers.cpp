@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "marker_parts.h"
+
 namespace deformable_manipulation {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kSpacing = 0.01;       // m between the points of a trail
 constexpr std::size_t kLongest = 2000;  // points; older ones go
 constexpr double kWidth = 0.008;        // m
 
-Marker emptyTrail(int agent) {
+Marker emptyTrail(int agent, bool is_leader) {
   Marker trail;
   trail.ns = "trails";
   trail.id = agent;
@@ -19,10 +21,7 @@ Marker emptyTrail(int agent) {
   trail.action = Marker::ADD;
   trail.pose.orientation.w = 1.0;
   trail.scale.x = kWidth;
-  trail.color.r = 0.95f;
-  trail.color.g = 0.6f;
-  trail.color.b = 0.1f;
-  trail.color.a = 0.5f;
+  trail.color = agentColor(is_leader, 0.5);
   return trail;
 }
 
@@ -37,7 +36,8 @@ void TrailMarkers::add(const ObjectState& state) {
     reset_count_ = state.reset_count;
     trails_.clear();
     for (std::size_t i = 0; i < state.agents.size(); ++i) {
-      trails_.push_back(emptyTrail(static_cast<int>(i)));
+      const int agent = static_cast<int>(i);
+      trails_.push_back(emptyTrail(agent, agent == leader_));
     }
   }
   for (std::size_t i = 0; i < trails_.size(); ++i) {

@@ -11,12 +11,16 @@ namespace deformable_manipulation {
 //! The paths that the agents have taken, for RViz.
 class TrailMarkers {
  public:
+  //! @param leader  its index among the agents
+  explicit TrailMarkers(int leader) : leader_(leader) {}
+
   //! Takes in where the agents are; begins anew after a reset.
   void add(const ObjectState& state);
 
   visualization_msgs::MarkerArray draw() const;
 
  private:
+  int leader_;
   std::uint32_t reset_count_ = 0;
   std::vector<visualization_msgs::Marker> trails_;  // one per agent
 };

@@ -12,8 +12,9 @@ constexpr std::chrono::microseconds kPeriodPerTriangle(30);
 
 }  // namespace
 
-Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, std::string tf_prefix)
-    : object_(shape),
+Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, int leader, std::string tf_prefix)
+    : object_(shape, leader),
+      trails_(leader),
       tf_prefix_(std::move(tf_prefix)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 4)),
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)),

@@ -132,6 +132,28 @@ TEST(Simulation, letsAgentsReleaseAndGrip) {
   EXPECT_LT((positions(simulation.body())[27] - end).norm(), 1e-12);
 }
 
+TEST(Simulation, keepsChangedPerturbationsOverAReset) {
+  const RodParameters p = rope();
+  Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
+  Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
+  const Vector3 before(0.0, 0.0, 0.1), after(0.0, 0.03, 0.0);
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, before}}, Clock());
+  EXPECT_THROW(simulation.setPerturbations({{1, after}, {1, Vector3::Zero()}}), std::invalid_argument);
+  ASSERT_EQ(simulation.body().copies().size(), 1u);
+  EXPECT_EQ(simulation.body().copies()[0].requested, before);
+  simulation.setPerturbations({{1, after}, {1, -after}});
+  for (const bool is_reset : {false, true}) {
+    ASSERT_EQ(simulation.body().copies().size(), 2u);
+    EXPECT_EQ(simulation.body().copies()[0].requested, after);
+    EXPECT_EQ(simulation.body().copies()[1].requested, -after);
+    // New copies grow; after a reset they are there, settled.
+    EXPECT_EQ(simulation.body().copies()[0].ready(), is_reset);
+    simulation.reset();
+  }
+  simulation.release(1);
+  EXPECT_THROW(simulation.setPerturbations({{1, before}}), std::logic_error);
+}
+
 TEST(Simulation, keepsAChangedMaterialOverAReset) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};

@@ -14,7 +14,7 @@ from observed_run import (
 )
 
 CYCLES = 50
-OF_ROS_ITSELF = {"/clock", "/rosout", "/rosout_agg", "/tf"}
+OF_ROS_ITSELF = {"/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf"}
 
 
 class NamespaceTest(unittest.TestCase):

@@ -65,6 +65,9 @@ class SafetyFilter {
   SafetyFilter(const SafetyFilter&) = delete;
   SafetyFilter& operator=(const SafetyFilter&) = delete;
 
+  //! Other weights, as many. @throw std::invalid_argument if one is not positive and finite
+  void setWeights(const Eigen::VectorXd& weights);
+
   //! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
   void setAnticipation(double weight) { anticipation_ = weight; }
 

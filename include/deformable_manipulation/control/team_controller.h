@@ -74,6 +74,10 @@ class TeamController {
   void setEnabled(int member, bool enabled) { members_[member].enabled = enabled; }
   bool isEnabled(int member) const { return members_[member].enabled; }
 
+  //! Goes on with other gains, limits and margins of the same agents; formulation, priority and solver stay as they
+  //! were made. @throw std::invalid_argument if they cannot be used; nothing changes then
+  void setParameters(const ControllerParameters& parameters);
+
   //! Back to the start: forgets all states and takes the first references again.
   void reset();
 
@@ -94,6 +98,8 @@ class TeamController {
   const std::vector<Decision>& wait();
 
  private:
+  void setSmoothing();
+
   struct Member {
     int agent;          // index
     Vector3 reference;  // [m]

@@ -67,6 +67,10 @@ class Simulation {
   //! Removes copies by their ids. @throw std::invalid_argument if there is no such copy.
   void removePerturbations(const std::vector<int>& ids);
 
+  //! Replaces all copies, now and for resets to come, which settle the object anew.
+  //! @throw std::out_of_range, std::invalid_argument as Body::addCopy(); nothing changes then.
+  void setPerturbations(const std::vector<Perturbation>& perturbations);
+
   //! Removes the copies that displace an agent.
   void clearPerturbations(int agent);
 
@@ -133,8 +137,8 @@ class Simulation {
   std::vector<AgentState> states_;
   std::unique_ptr<Body> start_body_;  // as settled
   std::vector<AgentState> start_states_;
-  std::vector<double> response_;   // of the holds, in the body's order
-  bool material_changed_ = false;  // since start_body_ was settled
+  std::vector<double> response_;  // of the holds, in the body's order
+  bool start_changed_ = false;    // since start_body_ was settled
   bool settled_ = false;
   long cycle_ = 0;
   int reset_count_ = 0;

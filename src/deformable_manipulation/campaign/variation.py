@@ -18,7 +18,6 @@ from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
     FabricSpec,
     KnowledgeSpec,
-    LeaderSpec,
     RodSpec,
     Scenario,
 )
@@ -97,7 +96,8 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         lambda points: clearance(start + points),
         ranges.clearance,
     )
-    drawn = dataclasses.replace(drawn, leader=LeaderSpec(tuple(path)))
+    leader = dataclasses.replace(drawn.leader, waypoints=tuple(path))
+    drawn = dataclasses.replace(drawn, leader=leader)
     # Last, so that the rest of a run is the same with it and without.
     return dataclasses.replace(drawn, knowledge=_knowledge(random)) if ranges.imperfect else drawn
 

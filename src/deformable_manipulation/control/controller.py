@@ -30,6 +30,10 @@ class AssistantController:
     def enabled(self, enabled):
         self._team.set_enabled(self._name, enabled)
 
+    def set_parameters(self, scenario):
+        """See :meth:`~.team.TeamController.set_parameters`."""
+        self._team.set_parameters(scenario)
+
     def reset(self):
         """See :meth:`~.team.TeamController.reset`."""
         self._team.reset()

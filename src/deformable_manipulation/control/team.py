@@ -46,6 +46,7 @@ class TeamController:
     """
 
     def __init__(self, scenario, names, safety=True):
+        self._safety = safety
         self._members = {name: number for number, name in enumerate(names)}
         self._native = _control.TeamController(native_parameters(scenario, names, safety))
         self._last = None
@@ -62,6 +63,17 @@ class TeamController:
     def set_enabled(self, name, enabled):
         """Let an assistant follow, or stand still."""
         self._native.set_enabled(self._members[name], enabled)
+
+    def set_parameters(self, scenario):
+        """Go on with the gains, limits and margins of another scenario of the same agents.
+
+        What was observed and the references stay, and so do ``formulation``, ``priority`` and
+        ``solver``.
+
+        Raises:
+            ValueError: they cannot be used; nothing changes then.
+        """
+        self._native.set_parameters(native_parameters(scenario, self.names, self._safety))
 
     def reset(self):
         """Back to the start: forget all states and take the scenario's references again."""

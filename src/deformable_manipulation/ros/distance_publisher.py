@@ -12,10 +12,13 @@ from deformable_manipulation.distance.features import Distances as DistanceFeatu
 from deformable_manipulation.msg import Distances
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import MessageError, fill_distances, points_of
+from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
+from deformable_manipulation.ros.health import input_report
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.obstacle_frames import ObstacleFrames
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.ros.obstacle_tracker import ObstacleTracker
+from deformable_manipulation.ros.overrun_report import age_of
 
 
 class Computed(NamedTuple):
@@ -60,6 +63,11 @@ class DistancePublisher:
             "distances", numpy_msg(Distances), queue_size=node.QUEUE_SIZE, latch=self._latch
         )
         self._markers = MarkerPublisher(self._draw, lambda: obstacles)
+        self._cycles = cycle_monitor(scenario)
+        self._fault = ""  # of the newest state
+        publish_diagnostics(
+            {"distances": self._cycles.report, "obstacles": lambda: input_report(self._fault)}
+        )
         node.await_subscribers(self._publisher)
 
     def compute(self, state):
@@ -67,9 +75,16 @@ class DistancePublisher:
 
         Raises MessageError: its points cannot be used.
         """
+        try:
+            return self._compute(state)
+        except MessageError as error:
+            self._cycles.failed(f"State {state.cycle} cannot be used: {error}.")
+            raise
+
+    def _compute(self, state):
         started = time.perf_counter()
         points = points_of(state)
-        fault = self._obstacles.move(self._distance, state)
+        self._fault = fault = self._obstacles.move(self._distance, state)
         try:
             if fault:
                 distances = DistanceFeatures.unknown(len(points), self._distance.names)
@@ -78,6 +93,7 @@ class DistancePublisher:
         except ValueError as error:
             raise MessageError(f"points: {error}") from error
         elapsed = time.perf_counter() - started
+        self._cycles.answered(elapsed, age_of(state))
         return Computed(distances, self._obstacles.poses(), elapsed, fault)
 
     def publish(self, state, computed):

@@ -12,6 +12,7 @@ from deformable_manipulation.ros.program import Program, ProgramError
 from deformable_manipulation.text_files import TextFileError, read_text
 
 _NODE = "/snapshot_view"
+_HANDLES = "rviz/InteractiveMarkers"  # nobody drags anything in a picture
 _FRAME_RATE = 10  # Hz, what is still needs no more
 _MARKERS = "rviz/MarkerArray"
 
@@ -39,7 +40,7 @@ def read_configuration(path, view, size):
 
 
 def bare_view(configuration, view, size):
-    """A copy of a configuration with one view filling a window of the given size.
+    """A copy of a configuration with one view filling a window of the given size, to look at.
 
     Raises:
         ProgramError: there is no saved view of that name.
@@ -54,6 +55,7 @@ def bare_view(configuration, view, size):
             raise ProgramError(f"--view '{view}': no view of this name is saved; saved: {names}")
         manager["Views"]["Current"] = saved[view]
     manager["Global Options"]["Frame Rate"] = _FRAME_RATE
+    manager["Displays"] = [each for each in manager["Displays"] if each["Class"] != _HANDLES]
     width, height = size
     result["Panels"] = []
     result["Window Geometry"] = {

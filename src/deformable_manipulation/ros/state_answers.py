@@ -1,10 +1,14 @@
 """How the nodes with controllers answer states."""
 
+import time
+
 import rospy
 
 from deformable_manipulation.control.team import teams
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import MessageError, to_observation
+from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
+from deformable_manipulation.ros.health import input_report
 from deformable_manipulation.ros.input_watch import find_age_fault
 from deformable_manipulation.ros.overrun_report import OverrunReport, age_of
 from deformable_manipulation.ros.team import Team
@@ -32,6 +36,7 @@ class StateAnswers:
             ]
         except ValueError as error:
             node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
+        self._cycles = cycle_monitor(scenario)
 
     def answer(self, state, distances_of):
         """Command the velocities that answer a state, then report them.
@@ -41,6 +46,7 @@ class StateAnswers:
             distances_of: function without arguments that gives the core's Distances of it; may
                 raise MessageError.
         """
+        started = time.perf_counter()
         observation, fault = None, ""
         try:
             distances = distances_of()
@@ -50,6 +56,7 @@ class StateAnswers:
         decisions = self._decide(state, observation, fault)
         self._overruns.answered(state)
         self._send(state, observation, decisions)
+        self._cycles.answered(time.perf_counter() - started, age_of(state))
 
     def _decide(self, state, observation, fault):
         return [team.decide(state, observation, fault) for team in self._teams]
@@ -62,7 +69,7 @@ class StateAnswers:
             team.report(state, observation, decided)
 
     def watch(self, fault, newest_state):
-        """From now on, let assistants stand still while inputs are lost.
+        """From now on, let assistants stand still while inputs are lost, and say how all fare.
 
         Args:
             fault: function without arguments: a clause that says what is lost, or nothing.
@@ -74,6 +81,10 @@ class StateAnswers:
             if lost and state is not None:
                 self._send(state, None, self._decide(state, None, lost))
 
+        reports = {"cycle": self._cycles.report, "inputs": lambda: input_report(fault())}
+        for team in self._teams:
+            reports.update(team.reports)
+        publish_diagnostics(reports)
         if not self._lockstep:  # there everybody waits for everybody
             node.every(0.5 * self._scenario.controller.timeout, check)
 

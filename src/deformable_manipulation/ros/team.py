@@ -10,6 +10,8 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.team import TeamController
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.assistant_link import AssistantLink
+from deformable_manipulation.ros.health import DecisionMonitor
+from deformable_manipulation.ros.live_parameters import LiveParameters
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.target_markers import target_markers
 
@@ -42,11 +44,24 @@ class Team:
         self._stopped = False
         self._links = [AssistantLink(name, scenario.frame, counter) for name in names]
         self._markers = MarkerPublisher(self._draw)
+        self._monitors = {name: DecisionMonitor() for name in names}
+        # Of one assistant they go by its name, of several commanded together by `team`.
+        self._live_parameters = LiveParameters(
+            scenario, names[0] if len(names) == 1 else "team", self._change_parameters
+        )
         for link in self._links:
             link.serve(self._enable, self._take_reference)
         for link in self._links:
             link.await_subscribers()
         rospy.on_shutdown(self._stop)
+
+    @property
+    def reports(self):
+        """How the assistants fare, for publish_diagnostics."""
+        return {
+            f"{name} quadratic program": monitor.report
+            for name, monitor in self._monitors.items()
+        }
 
     def decide(self, state, observation, fault=""):
         """The Decisions that answer a state, by the assistants' names.
@@ -76,6 +91,7 @@ class Team:
         """Tell everybody else, who is in no hurry."""
         for link in self._links:
             decision = decisions[link.name]
+            self._monitors[link.name].decided(decision)
             if decision.status == Status.WAITING:
                 self._warnings.warn(f"{link.name}: {decision.text}")
             link.report(state, decision)
@@ -95,6 +111,10 @@ class Team:
                 return SetBoolResponse(False, _NO_STATE)
             self._controller.set_enabled(name, request.data)
         return SetBoolResponse(True, "Follows the leader." if request.data else "Stands still.")
+
+    def _change_parameters(self, scenario):
+        with self._lock:
+            self._controller.set_parameters(scenario)
 
     def _take_reference(self, name, _request):
         with self._lock:

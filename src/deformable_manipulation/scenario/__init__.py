@@ -2,14 +2,24 @@
 
 from deformable_manipulation.scenario.errors import Problem, ScenarioError
 from deformable_manipulation.scenario.files import package_share_directory, scenario_names
-from deformable_manipulation.scenario.limits import PairLimits, pair_limits
-from deformable_manipulation.scenario.loader import load_scenario, scenario_from_mapping
-from deformable_manipulation.scenario.mapping import scenario_to_mapping, scenario_to_yaml
+from deformable_manipulation.scenario.limits import PairLimits, leader_workspace, pair_limits
+from deformable_manipulation.scenario.loader import (
+    load_scenario,
+    scenario_from_mapping,
+    with_controller,
+)
+from deformable_manipulation.scenario.mapping import (
+    controller_to_mapping,
+    scenario_to_mapping,
+    scenario_to_yaml,
+)
 
 __all__ = [
     "PairLimits",
     "Problem",
     "ScenarioError",
+    "controller_to_mapping",
+    "leader_workspace",
     "load_scenario",
     "package_share_directory",
     "pair_limits",
@@ -17,4 +27,5 @@ __all__ = [
     "scenario_names",
     "scenario_to_mapping",
     "scenario_to_yaml",
+    "with_controller",
 ]

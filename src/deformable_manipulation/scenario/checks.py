@@ -12,6 +12,7 @@ from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
     ControllerSpec,
+    LeaderSpec,
     SimulationSpec,
 )
 
@@ -164,6 +165,20 @@ def _report_start(report: Report, first: AgentSpec, second: AgentSpec, message: 
     report.add(
         ("agents", moved.name, "start"), message.format(other.name), show(list(moved.start))
     )
+
+
+def check_workspace(report: Report, agents: Tuple[AgentSpec, ...], leader: LeaderSpec) -> None:
+    """The leader starts where it can be moved by hand."""
+    if leader.workspace is None:
+        return
+    start = next(agent.start for agent in agents if agent.role == LEADER)
+    box = leader.workspace
+    if not all(low <= x <= high for low, x, high in zip(box.lower, start, box.upper)):
+        report.add(
+            ("leader", "workspace"),
+            "must hold the leader's start, {}".format(show(list(start))),
+            "{} to {}".format(show(list(box.lower)), show(list(box.upper))),
+        )
 
 
 def check_perturbation(

@@ -1,16 +1,18 @@
-"""Limits of the distance between two agents (paper, eqs. 8 and 11)."""
+"""Limits that follow from the whole scenario where they are ``auto``."""
 
 from dataclasses import dataclass
+from typing import Tuple
 
 from deformable_manipulation.scenario.objects import free_length
-from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario
+from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario, Vector
 
 AUTO_MIN_DISTANCE = 0.10  # of the free length
+AUTO_WORKSPACE = 0.5  # m around the leader's path
 
 
 @dataclass(frozen=True)
 class PairLimits:
-    """Allowed distance between the held points of two agents."""
+    """Allowed distance between the held points of two agents (paper, eqs. 8 and 11)."""
 
     max_distance: float  # m
     min_distance: float  # m
@@ -33,3 +35,15 @@ def limits_between(
         controller.overstretch.fraction * length if max_distance is None else max_distance,
         AUTO_MIN_DISTANCE * length if min_distance is None else min_distance,
     )
+
+
+def leader_workspace(scenario: Scenario) -> Tuple[Vector, Vector]:
+    """Lower and upper corner [m] of the box in which the leader can be moved by hand."""
+    box = scenario.leader.workspace
+    if box is not None:
+        return box.lower, box.upper
+    start = scenario.agents[scenario.leader_index].start
+    axes = list(zip(*(waypoint.position for waypoint in scenario.leader.waypoints)))
+    lower = tuple(s + min(axis) - AUTO_WORKSPACE for s, axis in zip(start, axes))
+    upper = tuple(s + max(axis) + AUTO_WORKSPACE for s, axis in zip(start, axes))
+    return lower, upper

@@ -85,6 +85,27 @@ def scenario_from_mapping(
     return _read_scenario(root, default_name, "")
 
 
+def with_controller(scenario: Scenario, section: Mapping[str, Any]) -> Scenario:
+    """A scenario with another section ``controller``, checked as the whole would be.
+
+    :param section: as :func:`~deformable_manipulation.scenario.mapping.controller_to_mapping` gives
+        it: with every key that depends on the object.
+
+    Raises ScenarioError with all problems found.
+    """
+    parts = {field.name: getattr(scenario, field.name) for field in dataclasses.fields(scenario)}
+    report = Report()
+    node = Node(section, ("controller",), report, Path("."))
+    try:
+        parts["controller"] = controller.CONTROLLER(node)
+    except Unreadable:
+        del parts["controller"]
+    _check_together(report, parts)
+    if report.problems:
+        raise ScenarioError(report.problems)
+    return Scenario(**parts)
+
+
 def _read_scenario(root: Node, default_name: str, source: str) -> Scenario:
     parts: Dict[str, Any] = {}
     try:
@@ -134,5 +155,6 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")
     check(checks.check_starts, "object", "agents")
+    check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")
     check(checks.check_perturbation, "object", "agents", "controller")

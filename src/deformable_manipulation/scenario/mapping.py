@@ -31,6 +31,11 @@ def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
     return mapping
 
 
+def controller_to_mapping(scenario: Scenario) -> Dict[str, Any]:
+    """The section ``controller`` of :func:`scenario_to_mapping`."""
+    return _plain(scenario.controller)
+
+
 def scenario_to_yaml(scenario: Scenario) -> str:
     """The mapping of :func:`scenario_to_mapping` as YAML text."""
     return yaml.safe_dump(scenario_to_mapping(scenario), sort_keys=False, default_flow_style=None)

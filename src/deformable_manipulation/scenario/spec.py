@@ -174,10 +174,24 @@ class Waypoint:
 
 
 @dataclass(frozen=True)
+class WorkspaceSpec:
+    """A box along the axes of the fixed frame."""
+
+    lower: Vector  # m
+    upper: Vector  # m
+
+
+@dataclass(frozen=True)
 class LeaderSpec:
-    """The leader's scripted path; smooth between the waypoints, at rest before and after."""
+    """The leader's scripted path, smooth between the waypoints, at rest before and after.
+
+    The other keys are limits of the leader moved by hand, not of the path.
+    """
 
     waypoints: Tuple[Waypoint, ...]
+    workspace: Optional[WorkspaceSpec] = None  # None: around the path
+    max_velocity: float = 0.1  # m/s, bound on every component
+    max_acceleration: float = 0.25  # m/s^2, bound on every component
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
-"""The ``leader`` section: the waypoints of its scripted path."""
+"""The ``leader`` section: its scripted path, and the limits of its motion by hand."""
 
 import math
-from typing import Tuple
+from typing import Optional, Tuple
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
-from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint
+from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint, WorkspaceSpec
 
 TIME = Number("s", at_least=0.0, at_most=1e6)
 WAYPOINT = Section(Waypoint, {"time": TIME, "position": position()})
@@ -70,4 +70,30 @@ def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
             )
 
 
-LEADER_PATH = Section(LeaderSpec, {"waypoints": Waypoints()})
+WORKSPACE = Section(WorkspaceSpec, {"lower": position(), "upper": position()})
+
+
+class Workspace:
+    """A box of some size, or ``auto`` (None)."""
+
+    allowed = "a section {lower: [x, y, z], upper: [x, y, z]}, or auto"
+
+    def __call__(self, node: Node) -> Optional[WorkspaceSpec]:
+        if node.value == "auto":
+            return None
+        box = WORKSPACE(node)
+        for axis, low, high in zip("xyz", box.lower, box.upper):
+            if low >= high:
+                node.fail("must have its lower corner below its upper one; not so in " + axis)
+        return box
+
+
+LEADER_PATH = Section(
+    LeaderSpec,
+    {
+        "waypoints": Waypoints(),
+        "workspace": Workspace(),
+        "max_velocity": Number("m/s", above=0.0, at_most=_LARGEST_SPEED),
+        "max_acceleration": Number("m/s^2", above=0.0, at_most=1e3),
+    },
+)

@@ -320,3 +320,42 @@ def test_statuses_are_those_of_the_message_and_have_a_sentence():
         "NOMINAL", "CONSTRAINED", "RELAXED", "FAILED", "WAITING", "DISABLED", "UNSAFE_FILTER_OFF"
     ]
     assert len({status.sentence for status in Status}) == len(Status)
+
+
+def test_goes_on_with_other_parameters_without_forgetting(scenario):
+    """Command, measured velocities and reference stay; gains and limits are the new ones."""
+    positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
+    controller = AssistantController(scenario, "assistant_1")
+    controller.take_reference(observed(scenario, 0.0, starts(scenario) + [[0, 0, 0], [0, 0.1, 0]]))
+    for k in range(40):
+        controller.update(observed(scenario, k * DT, positions))
+    changed = dataclasses.replace(
+        scenario,
+        controller=dataclasses.replace(
+            scenario.controller,
+            gain=0.2,
+            max_acceleration=0.5,
+            collision=CollisionSpec(offset=0.5),
+            overstretch=OverstretchSpec(max_distance=1.8),
+            proximity=ProximitySpec(min_distance=0.3),
+        ),
+    )
+    before = controller.update(observed(scenario, 0.4, positions))
+    controller.set_parameters(changed)
+    after = controller.update(observed(scenario, 0.41, positions))
+    np.testing.assert_array_equal(after.target, before.target)
+    np.testing.assert_allclose(after.command - before.command, [0.0, -0.005, 0.0], atol=1e-12)
+    np.testing.assert_allclose(after.nominal, 0.2 * (after.error - DT * before.command), atol=1e-12)
+    assert before.h_collision - after.h_collision == pytest.approx(0.45)
+    assert before.h_overstretch - after.h_overstretch == pytest.approx(0.2)
+    assert before.h_proximity - after.h_proximity == pytest.approx(0.1)
+    controller.reset()
+    again = controller.update(observed(scenario, 0.0, positions))
+    np.testing.assert_array_equal(again.target, [0.0, 1.5, 1.0])
+    assert again.h_proximity == after.h_proximity
+
+
+def test_refuses_parameters_of_other_agents(scenario):
+    controller = AssistantController(scenario, "assistant_1")
+    with pytest.raises(ValueError, match="other agents"):
+        controller.set_parameters(build.scenario(assistants=2))

@@ -21,7 +21,7 @@ from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
 from deformable_manipulation.scenario.rod import POSE, ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
-from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT
+from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 
 SECTIONS = {
     "Top level": SCENARIO,
@@ -35,6 +35,7 @@ SECTIONS = {
     "obstacles: motion.waypoints": POSE_WAYPOINT,
     "leader": LEADER_PATH,
     "leader.waypoints": WAYPOINT,
+    "leader.workspace": WORKSPACE,
     "controller": CONTROLLER,
     "controller.collision": COLLISION,
     "controller.overstretch": OVERSTRETCH,

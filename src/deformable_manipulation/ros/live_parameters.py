@@ -1,0 +1,123 @@
+"""A controller's parameters changed while it runs (dynamic_reconfigure)."""
+
+import copy
+
+import rospy
+from dynamic_reconfigure.encoding import extract_params
+from dynamic_reconfigure.server import Server
+
+from deformable_manipulation.cfg import ControllerConfig
+from deformable_manipulation.scenario import ScenarioError, controller_to_mapping, with_controller
+
+_AUTO = -1.0  # where the scenario says auto
+_ALL = -1  # level of the first call
+
+# Name in config/Controller.cfg -> key path in the scenario's section `controller`.
+KEYS = {
+    "gain": ("gain",),
+    "weight_x": ("weights", 0),
+    "weight_y": ("weights", 1),
+    "weight_z": ("weights", 2),
+    "max_velocity": ("max_velocity",),
+    "max_acceleration": ("max_acceleration",),
+    "smoothing": ("smoothing",),
+    "collision_offset": ("collision", "offset"),
+    "collision_margin": ("collision", "margin"),
+    "collision_speed_margin": ("collision", "speed_margin"),
+    "collision_alpha": ("collision", "alpha", 0),
+    "collision_alpha_back": ("collision", "alpha", 1),
+    "anticipation": ("collision", "anticipation", 0),
+    "anticipation_back": ("collision", "anticipation", 1),
+    "max_distance": ("overstretch", "max_distance"),
+    "max_fraction": ("overstretch", "fraction"),
+    "overstretch_margin": ("overstretch", "margin"),
+    "overstretch_alpha": ("overstretch", "alpha", 0),
+    "overstretch_alpha_back": ("overstretch", "alpha", 1),
+    "min_distance": ("proximity", "min_distance"),
+    "proximity_margin": ("proximity", "margin"),
+    "proximity_alpha": ("proximity", "alpha", 0),
+    "proximity_alpha_back": ("proximity", "alpha", 1),
+}
+
+
+def values_of(scenario):
+    """The live parameters of a scenario, by name."""
+    section = controller_to_mapping(scenario)
+    values = {}
+    for name, path in KEYS.items():
+        value = section
+        for key in path:
+            value = value[key]
+        values[name] = _AUTO if value == "auto" else value
+    return values
+
+
+def changed(scenario, values):
+    """A scenario with some live parameters replaced, checked as a file would be.
+
+    Raises:
+        ScenarioError: they cannot be used.
+    """
+    section = controller_to_mapping(scenario)
+    for name, value in values.items():
+        *parents, last = KEYS[name]
+        place = section
+        for key in parents:
+            place = place[key]
+        place[last] = "auto" if value == _AUTO else value
+    return with_controller(scenario, section)
+
+
+class LiveParameters:
+    """Offers a controller's parameters on ``<name>/set_parameters``, first the scenario's values.
+
+    Changes are checked together; those that do not go with each other, or with the object, are
+    refused as a whole, with the reason in the parameter ``outcome`` and in the log.
+
+    Args:
+        scenario: the checked scenario.
+        name: of the assistant, or of several under one controller.
+        apply: called with a changed scenario; what it raises as ValueError refuses it, too.
+    """
+
+    def __init__(self, scenario, name, apply):
+        self._scenario = scenario
+        self._apply = apply
+        _widen_ranges(values_of(scenario))
+        self._server = Server(ControllerConfig, self._change, rospy.resolve_name(name))
+
+    def _change(self, config, level):
+        present = values_of(self._scenario)
+        if level == _ALL:  # what an earlier life of the node has left behind does not count
+            return _filled(config, present, "As in the scenario.")
+        wanted = {name: config[name] for name in KEYS if config[name] != present[name]}
+        try:
+            scenario = changed(self._scenario, wanted)
+            self._apply(scenario)
+        except ValueError as error:
+            outcome = "Nothing changed: " + _reason(error)
+            rospy.logwarn(outcome)
+            return _filled(config, present, outcome)
+        self._scenario = scenario
+        return _filled(config, values_of(scenario), "Changed: " + (", ".join(wanted) or "nothing"))
+
+
+def _filled(config, values, outcome):
+    config = copy.copy(config)
+    config.update(values, outcome=outcome)
+    return config
+
+
+def _reason(error):
+    if isinstance(error, ScenarioError):
+        return "; ".join(map(str, error.problems))
+    return str(error)
+
+
+def _widen_ranges(values):
+    """Ranges of the parameters hold the scenario's values: what is beyond them would be clamped."""
+    for parameter in extract_params(ControllerConfig.config_description):
+        name = parameter["name"]
+        if name in values:
+            parameter["min"] = ControllerConfig.min[name] = min(parameter["min"], values[name])
+            parameter["max"] = ControllerConfig.max[name] = max(parameter["max"], values[name])

@@ -1,0 +1,113 @@
+#include "simulator_diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace deformable_manipulation {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kPeriod = 1.0;  // s
+
+// Ropes and rods yield less than a thousandth to any load in use: beyond this the constraints are not solved, or the
+// object is pulled apart. Fabrics may be softer.
+constexpr double kRodStretch = 0.01;
+constexpr double kFabricStretch = 0.05;
+
+}  // namespace
+
+SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle& node, const pbd::Simulation& simulation,
+                                           const std::vector<AgentLink>& links, const RunControl& control,
+                                           bool is_fabric, bool lockstep)
+    : simulation_(simulation), links_(links), control_(control), is_fabric_(is_fabric), lockstep_(lockstep) {
+  updater_.setHardwareID("none");
+  updater_.add("loop", this, &SimulatorDiagnostics::reportLoop);
+  updater_.add("object", this, &SimulatorDiagnostics::reportObject);
+  updater_.add("agents", this, &SimulatorDiagnostics::reportAgents);
+  timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod), &SimulatorDiagnostics::report, this);
+}
+
+void SimulatorDiagnostics::countCycle(double busy) {
+  ++now_.cycles;
+  now_.busy += busy;
+  now_.busiest = std::max(now_.busiest, busy);
+}
+
+void SimulatorDiagnostics::countOverrun() {
+  ++now_.overruns;
+  ++overruns_;
+}
+
+void SimulatorDiagnostics::countResponse(pbd::ResponseStatus status) {
+  ++now_.responses;
+  if (status != pbd::ResponseStatus::VALID) {
+    ++now_.unknown_responses;
+    now_.why_unknown = status;
+  }
+}
+
+void SimulatorDiagnostics::report(const ros::SteadyTimerEvent&) {
+  last_ = now_;
+  now_ = Second();
+  updater_.force_update();
+}
+
+void SimulatorDiagnostics::reportLoop(Status& status) {
+  const double elapsed = (now_.begun - last_.begun).toSec();
+  const double cycle_time = simulation_.clock().cycleTime();
+  status.addf("cycles per second", "%.1f", last_.cycles / elapsed);
+  status.addf("overruns, in all", "%ld", overruns_);
+  if (last_.cycles > 0) {
+    status.addf("work per cycle [ms], mean", "%.3f", 1e3 * last_.busy / last_.cycles);
+    status.addf("work per cycle [ms], largest", "%.3f", 1e3 * last_.busiest);
+  }
+  if (last_.cycles == 0 && control_.halted()) {
+    status.summary(DiagnosticStatus::OK, "Paused.");
+  } else if (last_.cycles == 0) {
+    status.summary(DiagnosticStatus::STALE, "Stands still: waits for other nodes (see the log).");
+  } else if (last_.overruns > 0) {
+    const bool most = 2 * last_.overruns > last_.cycles;
+    status.summaryf(most ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                    "%ld of %ld cycles took longer than %.1f ms: the simulation lags behind.", last_.overruns,
+                    last_.cycles, 1e3 * cycle_time);
+  } else {
+    status.summaryf(DiagnosticStatus::OK, "%s, %.1f times as fast as real time.", lockstep_ ? "Lock-step" : "In time",
+                    last_.cycles * cycle_time / elapsed);
+  }
+}
+
+void SimulatorDiagnostics::reportObject(Status& status) {
+  const double stretch = simulation_.body().stretch();
+  status.addf("relative error of its length", "%.2e", stretch);
+  status.add("perturbed copies", simulation_.body().copies().size());
+  status.addf("exact responses found", "%ld of %ld", last_.responses - last_.unknown_responses, last_.responses);
+  if (std::abs(stretch) > (is_fabric_ ? kFabricStretch : kRodStretch)) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "Its length is %.1f %% off: pulled apart, or more simulation.substeps are needed.",
+                    100.0 * stretch);
+  } else if (last_.unknown_responses > 0) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "The exact response was not known in %ld of %ld cycles, and perturbed copies took over: %s.",
+                    last_.unknown_responses, last_.responses, pbd::describe(last_.why_unknown));
+  } else {
+    status.summary(DiagnosticStatus::OK, "Solved within its tolerance.");
+  }
+}
+
+void SimulatorDiagnostics::reportAgents(Status& status) {
+  std::string faults;
+  for (const AgentLink& link : links_) {
+    const std::string fault = link.fault();
+    status.add(link.name(), fault.empty() ? "in time" : fault);
+    if (!fault.empty()) {
+      faults += (faults.empty() ? "" : "; ") + link.name() + ": " + fault;
+    }
+  }
+  const bool all_well = faults.empty();
+  status.summary(all_well ? DiagnosticStatus::OK : DiagnosticStatus::STALE,
+                 all_well ? "All agents get their inputs in time." : faults + ".");
+}
+
+}  // namespace deformable_manipulation

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Parameters changed while the nodes run take effect within a cycle and outlive a reset."""
+
+import unittest
+
+import numpy as np
+from dynamic_reconfigure.client import Client
+from observed_run import (
+    DEADLINE,
+    call,
+    observe_controllers,
+    observe_states,
+    read_scenario,
+    run_tests,
+)
+from std_srvs.srv import SetBool, Trigger
+
+from deformable_manipulation.ros.live_parameters import values_of
+from deformable_manipulation.srv import Step
+
+AGENT = "assistant_1"
+CYCLES = 20
+
+
+class LiveParametersTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scenario = read_scenario()
+        cls.controller = Client(AGENT, timeout=DEADLINE)
+        cls.simulator = Client("simulator", timeout=DEADLINE)
+        cls.decisions = observe_controllers(cls.scenario)[AGENT]
+        cls.states = observe_states()
+        cls.start = cls.controller.get_configuration(DEADLINE)
+
+    def setUp(self):
+        self.addCleanup(self.restore)
+
+    def restore(self):
+        self.set(self.controller, **values_of(self.scenario))
+        size = dict(zip("xyz", self.scenario.controller.perturbation))
+        self.set(self.simulator, **{"perturbation_" + axis: x for axis, x in size.items()})
+        self.decisions.wait_for_more(CYCLES)
+
+    def set(self, client, **values):
+        return client.update_configuration(values)
+
+    def offset_of(self, decision):
+        return decision.distance - decision.h_collision
+
+    def reset(self):
+        resets = self.states[-1].reset_count
+        self.assertTrue(call("reset", Trigger).success)
+        self.states.wait_for(lambda state: state.reset_count > resets, "a reset")
+        return self.decisions.wait_for(
+            lambda decision: decision.reset_count > resets and decision.cycle >= CYCLES, "decisions"
+        )
+
+    def test_they_begin_with_the_scenario(self):
+        for name, value in values_of(self.scenario).items():
+            self.assertEqual(self.start[name], value, name)
+        simulator = self.simulator.get_configuration(DEADLINE)
+        sizes = [simulator["perturbation_" + axis] for axis in "xyz"]
+        self.assertEqual(sizes, list(self.scenario.controller.perturbation))
+
+    def test_a_change_acts_on_the_next_cycle_and_outlives_a_reset(self):
+        self.assertTrue(call("pause", SetBool, True).success)
+        self.addCleanup(call, "pause", SetBool, False)
+        last = self.decisions[-1]
+        # While time stands still no cycle is under way: the next one is the first to know.
+        result = self.set(self.controller, collision_offset=0.11)
+        self.assertIn("collision_offset", result["outcome"])
+        answered = self.decisions[-1]
+        self.assertTrue(call("step", Step, 1).success)
+        following = self.decisions.wait_for(
+            lambda decision: decision.cycle == answered.cycle + 1
+            and decision.header.stamp > last.header.stamp,
+            "the next cycle",
+        )
+        self.assertAlmostEqual(self.offset_of(following), 0.11)
+        self.assertTrue(call("pause", SetBool, False).success)
+        self.assertAlmostEqual(self.offset_of(self.reset()), 0.11)
+
+    def test_limits_that_contradict_each_other_are_refused_with_the_reason(self):
+        result = self.set(self.controller, max_distance=0.3, min_distance=0.5)
+        self.assertIn("Nothing changed: controller.proximity.min_distance", result["outcome"])
+        self.assertEqual(result["max_distance"], -1.0)
+        self.assertEqual(result["min_distance"], -1.0)
+
+    def test_perturbations_change_and_outlive_a_reset(self):
+        result = self.set(self.simulator, perturbation_z=0.04)
+        self.assertEqual(result["outcome"], "Changed.")
+
+        def has_new_copies(state):
+            sizes = np.abs(state.displacements.reshape(-1, 3)[1:])
+            return all(state.copy_ready) and sizes.max(axis=0)[2] <= 0.04 + 1e-9
+
+        self.states.wait_for(has_new_copies, "ready copies of the new size", len(self.states))
+        resets = self.states[-1].reset_count
+        self.reset()
+        first = self.states.wait_for(lambda state: state.reset_count > resets, "a reset")
+        self.assertEqual(first.cycle, 0)
+        self.assertTrue(has_new_copies(first))
+
+    def test_a_perturbation_of_nothing_is_refused(self):
+        result = self.set(self.simulator, perturbation_x=0.0)
+        self.assertIn("Nothing changed: every perturbation must be at least", result["outcome"])
+        self.assertEqual(result["perturbation_x"], self.scenario.controller.perturbation[0])
+
+
+if __name__ == "__main__":
+    run_tests("live_parameters")
