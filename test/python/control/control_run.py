@@ -16,11 +16,13 @@ class Run:
     """Histories of a run: time first.
 
     ``body``: a :class:`~control_builders.LinearObject`; default: a chain that hangs through by
-    ``sag`` [m]. The assistants' answers come ``late`` by so many cycles; they are ``told`` so, or not.
+    ``sag`` [m]. The assistants' answers come ``late`` by so many cycles; they are ``told`` so, or
+    not.
     """
 
     def __init__(
-        self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, late=0, told=True, **settings
+        self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, late=0, told=True,
+        **settings,
     ):
         controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]
         leader = LeaderController(scenario)

@@ -101,8 +101,8 @@ def test_disabled_sends_zero_and_still_measures(scenario):
 @pytest.mark.parametrize("safety", [True, False])
 @pytest.mark.parametrize(
     "field",
-    ["time", "lateness", "positions", "points", "displacements", "distances.minimum", "distances.distance",
-     "distances.normal", "distances.weights", "distances.obstacle_velocity"],
+    ["time", "lateness", "positions", "points", "displacements", "distances.minimum",
+     "distances.distance", "distances.normal", "distances.weights", "distances.obstacle_velocity"],
 )
 def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, value, safety):
     controller = AssistantController(scenario, "assistant_1", safety=safety)
