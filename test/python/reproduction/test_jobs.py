@@ -49,7 +49,8 @@ class Terminal(io.StringIO):
 
 
 def test_a_terminal_shows_what_is_running_until_it_is_done(tmp_path):
-    job_that_tells = job(tmp_path, "long", "import time; print('  40 %', flush=True); time.sleep(1)")
+    code = "import time; print('  40 %', flush=True); time.sleep(1)"
+    job_that_tells = job(tmp_path, "long", code)
     stream = Terminal()
     run_jobs([job_that_tells], 1, display(1, stream))
     assert "\r\x1b[Klong (0 s, 40 %)" in stream.getvalue()
