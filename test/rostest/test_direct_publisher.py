@@ -89,7 +89,8 @@ class DirectPublisherTest(unittest.TestCase):
             return self.publisher.get_num_connections() == 1
 
         poll(forgotten, "the end of a connection")
-        self.reader.wait_for_more(1)
+        self.publish(1)
+        self.reader.wait_for(lambda message: int(message.data) == 1, "a message for who reads")
 
 
 if __name__ == "__main__":
