@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   own.param("pose_namespace", options.pose_namespace, options.pose_namespace);
   own.param("tf_prefix", options.tf_prefix, options.tf_prefix);
   own.param("state_subscribers", options.state_subscribers, options.state_subscribers);
+  own.param("position_subscribers", options.position_subscribers, options.position_subscribers);
   own.param("recorded", options.recorded, options.recorded);
   try {
     deformable_manipulation::Simulator(deformable_manipulation::readScenario(scenario), options).run();

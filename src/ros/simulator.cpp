@@ -47,6 +47,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   }
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
+  positions_publisher_ = node_.advertise<AgentPositions>("agent_positions", kQueue, latch);
   if (options_.lockstep) {
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1, latch);
     if (options_.recorded) {
@@ -64,7 +65,8 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
 }
 
 void Simulator::run() {
-  waitForNodes();
+  waitForSubscribers(state_publisher_, options_.state_subscribers);
+  waitForSubscribers(positions_publisher_, options_.position_subscribers);
   next_tick_ = SteadyClock::now();
   while (ros::ok() && !atEnd()) {
     if (control_.takeReset()) {
@@ -75,10 +77,14 @@ void Simulator::run() {
     }
     control_.countCycle();
     const SteadyClock::time_point started = SteadyClock::now();
-    if (agentsAreTrue()) {
+    const bool published = agentsAreTrue();
+    if (published) {
       publish();
     }
     simulation_.advance();
+    if (published) {
+      publishPositions();
+    }
     diagnostics_.countCycle(std::chrono::duration<double>(SteadyClock::now() - started).count());
     options_.lockstep ? awaitCommands() : awaitTick();
     applyInputs();
@@ -96,11 +102,10 @@ bool Simulator::atEnd() const {
   return options_.stop_at_end && simulation_.time() > scenario_.duration - 0.5 * scenario_.clock.cycleTime();
 }
 
-void Simulator::waitForNodes() {
-  while (ros::ok() && static_cast<int>(state_publisher_.getNumSubscribers()) < options_.state_subscribers) {
-    ROS_INFO_STREAM_THROTTLE(kWarningPeriod, "Waiting for " << options_.state_subscribers << " subscribers of "
-                                                            << state_publisher_.getTopic() << "; there are "
-                                                            << state_publisher_.getNumSubscribers() << ".");
+void Simulator::waitForSubscribers(const ros::Publisher& publisher, int wanted) {
+  while (ros::ok() && static_cast<int>(publisher.getNumSubscribers()) < wanted) {
+    ROS_INFO_STREAM_THROTTLE(kWarningPeriod, "Waiting for " << wanted << " subscribers of " << publisher.getTopic()
+                                                            << "; there are " << publisher.getNumSubscribers() << ".");
     spinFor(0.01);
   }
 }
@@ -140,6 +145,16 @@ void Simulator::publish() {
     links_[i].publish(simulation_.pose(agent), simulation_.wrench(agent), stamp);
   }
   visualization_.show(state_);
+}
+
+//! Comes after the step: on few cores the leader, who is in no hurry, would keep the assistants waiting.
+void Simulator::publishPositions() {
+  positions_.header = state_.header;
+  positions_.cycle = state_.cycle;
+  positions_.reset_count = state_.reset_count;
+  positions_.agents = state_.agents;
+  positions_.agent_positions = state_.agent_positions;
+  positions_publisher_.publish(positions_);
 }
 
 void Simulator::addMeasuredVelocities() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agent_link.h"
+#include "deformable_manipulation/AgentPositions.h"
 #include "deformable_manipulation/ObjectState.h"
 #include "deformable_manipulation/pbd/simulation.h"
 #include "live_perturbation.h"
@@ -23,12 +24,13 @@ namespace deformable_manipulation {
 //! How the simulator node runs.
 struct SimulatorOptions {
   bool lockstep = false;
-  bool stop_at_end = false;    // leave after the scenario's duration
-  bool follow_poses = false;   // all agents are driven by their poses
-  std::string pose_namespace;  // prefix of the pose topics followed
-  std::string tf_prefix;       // of the agents' frames
-  int state_subscribers = 0;   // to wait for before the first state
-  bool recorded = false;       // lock-step: do not get far ahead of the recorder
+  bool stop_at_end = false;      // leave after the scenario's duration
+  bool follow_poses = false;     // all agents are driven by their poses
+  std::string pose_namespace;    // prefix of the pose topics followed
+  std::string tf_prefix;         // of the agents' frames
+  int state_subscribers = 0;     // to wait for before the first state
+  int position_subscribers = 0;  // the same of the agents' positions
+  bool recorded = false;         // lock-step: do not get far ahead of the recorder
 };
 
 //! The simulation as a ROS node: states out, commands in (docs/interfaces.md).
@@ -45,8 +47,9 @@ class Simulator {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  void waitForNodes();
+  void waitForSubscribers(const ros::Publisher& publisher, int wanted);
   void publish();
+  void publishPositions();
   void addMeasuredVelocities();
   void addResponse();
   void awaitCommands();
@@ -63,7 +66,7 @@ class Simulator {
   SimulatorOptions options_;
   pbd::Simulation simulation_;
   ros::NodeHandle node_;
-  ros::Publisher state_publisher_, clock_publisher_;
+  ros::Publisher state_publisher_, positions_publisher_, clock_publisher_;
   ros::Subscriber recorder_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
@@ -73,6 +76,7 @@ class Simulator {
   SimulatorDiagnostics diagnostics_;
 
   ObjectState state_;
+  AgentPositions positions_;
   long published_ = 0;  // states since the start, over all resets
   long overruns_ = 0;
   ros::Time recorded_;  // stamp up to which everything is

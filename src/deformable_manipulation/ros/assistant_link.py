@@ -8,6 +8,7 @@ from std_srvs.srv import SetBool, Trigger
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import fill_controller_state, to_twist
+from deformable_manipulation.ros.direct_publisher import DirectPublisher
 
 
 class AssistantLink:
@@ -26,16 +27,10 @@ class AssistantLink:
         self.name = name
         self._frame = frame
         self._counter = counter
-        self._commands = rospy.Publisher(
-            f"{name}/cmd_vel",
-            TwistStamped,
-            queue_size=node.QUEUE_SIZE,
-            tcp_nodelay=True,
-            latch=rospy.get_param("~lockstep", False),
+        self._commands = DirectPublisher(
+            f"{name}/cmd_vel", TwistStamped, latch=rospy.get_param("~lockstep", False)
         )
-        self._states = rospy.Publisher(
-            f"{name}/controller_state", ControllerState, queue_size=node.QUEUE_SIZE
-        )
+        self._states = DirectPublisher(f"{name}/controller_state", ControllerState)
 
     def serve(self, enable, take_reference):
         """Offer the services; the callbacks get the assistant's name and the request."""

@@ -17,9 +17,6 @@ BUFFER_SIZE = 1 << 22  # bytes
 # Messages kept for a subscriber that is slow for a moment: a recorder must not lose any.
 QUEUE_SIZE = 100
 
-# rospy sends from threads of its own, and closes without waiting for them.
-_SENDING_TIME = 0.1  # s
-
 
 def start(name):
     """Start a node and read the checked scenario.
@@ -99,17 +96,6 @@ def await_subscribers(publisher):
     rospy.on_shutdown(stopped.set)
     while publisher.get_num_connections() < wanted and not stopped.wait(0.01):
         rospy.loginfo_throttle(5.0, f"Waiting for {wanted} subscribers of {publisher.name}.")
-
-
-def publish_last(publisher, message):
-    """Publish at shutdown, and leave the message time to go out before the publisher is closed."""
-    publisher.publish(message)
-    await_sending()
-
-
-def await_sending():
-    """Leave what was published at shutdown time to go out before the publishers are closed."""
-    rospy.rostime.wallsleep(_SENDING_TIME)
 
 
 def every(period, callback):

@@ -133,4 +133,3 @@ class Team:
             if self._answered is not None:
                 for link in self._links:
                     link.command(self._answered, (0.0, 0.0, 0.0))
-                node.await_sending()
