@@ -27,8 +27,8 @@ def safety_table(plan: Plan) -> Table:
     )
     rows = []
     for name in plan.scenarios:
-        if name in PUBLISHED:
-            paper = PUBLISHED[name]
+        paper = PUBLISHED.get(name)
+        if paper and paper.min_distance is not None:
             known = (millimetres(paper.offset), millimetres(paper.min_distance))
             rows.append((name, "reported in the paper", *known, *[_NONE] * (len(header) - 4)))
         for variant, (title, _) in VARIANTS.items():
