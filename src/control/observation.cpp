@@ -26,6 +26,11 @@ std::string notFinite(const ObservationView& o) {
     text << "time of the state is " << o.time << ", not a finite number";
     return text.str();
   }
+  if (!(o.lateness >= 0.0) || !std::isfinite(o.lateness)) {
+    std::ostringstream text;
+    text << "lateness of the state is " << o.lateness << ", not a finite number of seconds, 0 or more";
+    return text.str();
+  }
   struct Field {
     const char* name;
     const double* values;

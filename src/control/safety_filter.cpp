@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace deformable_manipulation {
@@ -17,6 +18,9 @@ constexpr double NEGLIGIBLE_GRADIENT = 1e-3;
 // Cost of one m/s of slack, in multiples of the steepest cost of departing from the nominal velocity, from
 // the first limit in the priority to the last.
 constexpr std::array<double, LIMIT_TIERS> PENALTIES = {1e6, 1e4, 1e2};
+
+// A row yields at least this part of what the others of its limit do: the penalties stay apart.
+constexpr double LEAST_YIELDING = 0.1;
 
 std::array<double, TIERS> penaltiesOf(const Priority& priority) {
   std::array<double, TIERS> penalties = {};
@@ -125,10 +129,45 @@ void SafetyFilter::formulate(const Given& given) {
       program_.addRow(0.0)[n + tier] = 1.0;
     }
   }
+  if (relaxation_) {
+    measureDemands(given);
+  }
   for (int row = 0; row < given.rows.size(); ++row) {
     addRow(given, row);
   }
   addBounds(given);
+}
+
+//! What each row demands beyond the middle of the bounds, in multiples of what they allow: up to -1 every velocity
+//! satisfies it, beyond 1 none does.
+void SafetyFilter::measureDemands(const Given& given) {
+  demands_.resize(static_cast<std::size_t>(given.rows.size()));
+  for (int row = 0; row < given.rows.size(); ++row) {
+    const ConstraintRows::Coefficients g = given.rows.coefficients(row);
+    const double middle = 0.5 * g.dot(given.lower + given.upper);
+    const double reach = 0.5 * g.cwiseAbs().dot(given.upper - given.lower);
+    demands_[row] = (given.rows.bound(row) - middle) / std::max(reach, std::numeric_limits<double>::min());
+  }
+}
+
+//! The part of its limit's slack that a row yields: less than one if it is out of reach and another one of less demand
+//! pulls against it.
+double SafetyFilter::yielding(const Given& given, int row) const {
+  const ConstraintRows::Coefficients g = given.rows.coefficients(row);
+  double part = 1.0;
+  if (penalties_[static_cast<int>(given.rows.tier(row))] == 0.0 || !(demands_[row] > 1.0)) {
+    return part;
+  }
+  for (int other = 0; other < given.rows.size(); ++other) {
+    if (given.rows.tier(other) != given.rows.tier(row) || !(demands_[other] > -1.0)) {
+      continue;
+    }
+    const ConstraintRows::Coefficients h = given.rows.coefficients(other);
+    const double against = std::max(0.0, -g.dot(h)) / std::max(g.norm() * h.norm(), NEGLIGIBLE_GRADIENT);
+    const double excess = std::max(0.0, 1.0 - std::max(1.0, demands_[other]) / demands_[row]);
+    part = std::min(part, 1.0 - against * excess);
+  }
+  return std::max(part, LEAST_YIELDING);
 }
 
 //! A row of the barriers, as far as it can be satisfied and missed within the bounds.
@@ -146,7 +185,7 @@ void SafetyFilter::addRow(const Given& given, int row) {
   auto added = program_.addRow(limit);
   added.head(g.size()) = g.transpose();
   if (relaxation_) {
-    added[g.size() + static_cast<int>(given.rows.tier(row))] = 1.0;
+    added[g.size() + static_cast<int>(given.rows.tier(row))] = yielding(given, row);
   }
 }
 

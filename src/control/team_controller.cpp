@@ -152,11 +152,11 @@ void TeamController::conclude() {
   }
 }
 
-//! The situation at the next state, when the commands start to act.
+//! The situation when the commands start to act: at the next state, or later if they are late.
 void TeamController::predict(const ObservationView& observation) {
   const double* velocities = observation.velocities != nullptr ? observation.velocities : velocities_.velocity().data();
   situation_.leader = parameters_.leader;
-  situation_.delay = parameters_.formulation.prediction ? parameters_.cycle_time : 0.0;
+  situation_.delay = parameters_.formulation.prediction ? parameters_.cycle_time + observation.lateness : 0.0;
   situation_.positions.resize(positions_.size());
   situation_.velocities.resize(positions_.size());
   for (int agent = 0; agent < observation.agents; ++agent) {

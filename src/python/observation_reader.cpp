@@ -33,6 +33,14 @@ py::array arrayOf(const py::handle& owner, const char* key, const char* name, co
   return array;
 }
 
+double number(const py::handle& owner, const char* name) {
+  const py::object value = owner.attr(name);
+  if (!PyFloat_Check(value.ptr()) && !py::isinstance(value, py::module_::import("numbers").attr("Real"))) {
+    throw Unusable{std::string(name) + " of the state is " + Py_TYPE(value.ptr())->tp_name + ", expected a number"};
+  }
+  return value.cast<double>();
+}
+
 void requireShape(const py::array& array, const char* name, const std::vector<py::ssize_t>& shape) {
   const auto given = static_cast<std::size_t>(array.ndim());
   if (given != shape.size() || !std::equal(shape.begin(), shape.end(), array.shape())) {
@@ -57,11 +65,8 @@ std::string ObservationReader::read(const py::handle& observation, int agents) {
 }
 
 void ObservationReader::readState(const py::handle& observation, int agents) {
-  const py::object time = observation.attr("time");
-  if (!PyFloat_Check(time.ptr()) && !py::isinstance(time, py::module_::import("numbers").attr("Real"))) {
-    throw Unusable{std::string("time of the state is ") + Py_TYPE(time.ptr())->tp_name + ", expected a number"};
-  }
-  view_.time = time.cast<double>();
+  view_.time = number(observation, "time");
+  view_.lateness = number(observation, "lateness");
   view_.agents = agents;
   const py::array points = arrayOf(observation, "points", "points", "fiu");
   if (points.ndim() != 3 || points.shape(0) == 0) {

@@ -51,8 +51,7 @@ visualization_msgs::MarkerArray ObjectMarkers::draw(const ObjectState& state) {
   }
   copies_drawn_ = copies;
   for (std::size_t i = 0; i < state.agents.size(); ++i) {
-    const int agent = static_cast<int>(i);
-    drawAgent(state, agent, agent == leader_, array);
+    drawAgent(state, static_cast<int>(i), state.agents[i] == leader_, array);
   }
   return array;
 }

@@ -3,6 +3,8 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "deformable_manipulation/ObjectState.h"
 #include "object_drawing.h"
@@ -13,14 +15,15 @@ namespace deformable_manipulation {
 //! z blue), and the agents with their names.
 class ObjectMarkers {
  public:
-  //! @param leader  its index among the agents
-  ObjectMarkers(const ObjectShape& shape, int leader) : leader_(leader), drawing_(makeDrawing(shape)) {}
+  //! @param leader  its name
+  ObjectMarkers(const ObjectShape& shape, std::string leader)
+      : leader_(std::move(leader)), drawing_(makeDrawing(shape)) {}
 
   //! Copies that are gone since the last call are deleted.
   visualization_msgs::MarkerArray draw(const ObjectState& state);
 
  private:
-  int leader_;
+  std::string leader_;
   std::unique_ptr<ObjectDrawing> drawing_;
   std::size_t copies_drawn_ = 0;
 };

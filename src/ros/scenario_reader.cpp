@@ -26,8 +26,8 @@ void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
 
 }  // namespace
 
-int SimulatorScenario::leader() const {
-  return static_cast<int>(std::find(is_assistant.begin(), is_assistant.end(), false) - is_assistant.begin());
+const std::string& SimulatorScenario::leader() const {
+  return agents[std::find(is_assistant.begin(), is_assistant.end(), false) - is_assistant.begin()].name;
 }
 
 std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size) {

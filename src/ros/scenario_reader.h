@@ -27,8 +27,8 @@ struct SimulatorScenario {
   double command_timeout = 0.0;  // s
   double pose_smoothing = 0.0;   // s
 
-  //! Index of the leader among the agents.
-  int leader() const;
+  //! The leader's name.
+  const std::string& leader() const;
 };
 
 //! Per assistant and axis a copy on one side, or one on each. @param size [m] of the displacement along each axis

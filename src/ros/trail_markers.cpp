@@ -36,8 +36,7 @@ void TrailMarkers::add(const ObjectState& state) {
     reset_count_ = state.reset_count;
     trails_.clear();
     for (std::size_t i = 0; i < state.agents.size(); ++i) {
-      const int agent = static_cast<int>(i);
-      trails_.push_back(emptyTrail(agent, agent == leader_));
+      trails_.push_back(emptyTrail(static_cast<int>(i), state.agents[i] == leader_));
     }
   }
   for (std::size_t i = 0; i < trails_.size(); ++i) {

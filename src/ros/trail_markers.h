@@ -2,6 +2,8 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "deformable_manipulation/ObjectState.h"
@@ -11,8 +13,8 @@ namespace deformable_manipulation {
 //! The paths that the agents have taken, for RViz.
 class TrailMarkers {
  public:
-  //! @param leader  its index among the agents
-  explicit TrailMarkers(int leader) : leader_(leader) {}
+  //! @param leader  its name
+  explicit TrailMarkers(std::string leader) : leader_(std::move(leader)) {}
 
   //! Takes in where the agents are; begins anew after a reset.
   void add(const ObjectState& state);
@@ -20,7 +22,7 @@ class TrailMarkers {
   visualization_msgs::MarkerArray draw() const;
 
  private:
-  int leader_;
+  std::string leader_;
   std::uint32_t reset_count_ = 0;
   std::vector<visualization_msgs::Marker> trails_;  // one per agent
 };

@@ -12,7 +12,8 @@ constexpr std::chrono::microseconds kPeriodPerTriangle(30);
 
 }  // namespace
 
-Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, int leader, std::string tf_prefix)
+Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, const std::string& leader,
+                             std::string tf_prefix)
     : object_(shape, leader),
       trails_(leader),
       tf_prefix_(std::move(tf_prefix)),

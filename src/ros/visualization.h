@@ -16,9 +16,9 @@ namespace deformable_manipulation {
 //! less often, so that drawing it does not hold up the simulation.
 class Visualization {
  public:
-  //! @param leader  its index among the agents
+  //! @param leader  its name
   //! @param tf_prefix  put before the agents' names to make their tf frames
-  Visualization(ros::NodeHandle& node, const ObjectShape& shape, int leader, std::string tf_prefix);
+  Visualization(ros::NodeHandle& node, const ObjectShape& shape, const std::string& leader, std::string tf_prefix);
 
   void show(const ObjectState& state);
 

@@ -47,7 +47,7 @@ std::vector<Marker> markersOf(const MarkerArray& array, const std::string& ns) {
 }
 
 Marker surfaceOf(const std::vector<double>& points) {
-  ObjectMarkers markers({0.001, kTriangles}, 0);
+  ObjectMarkers markers({0.001, kTriangles}, "leader");
   return markersOf(markers.draw(stateOf(points, {})), "object").at(0);
 }
 
@@ -78,14 +78,14 @@ TEST(FabricMarkers, whatFacesUpwardsOrDownwardsIsBright) {
 }
 
 TEST(FabricMarkers, theLinesAreTheEdgesEachOnce) {
-  ObjectMarkers markers({0.001, kTriangles}, 0);
+  ObjectMarkers markers({0.001, kTriangles}, "leader");
   const Marker lines = markersOf(markers.draw(stateOf(kFlat, {})), "object_lines").at(0);
   EXPECT_EQ(lines.type, Marker::LINE_LIST);
   EXPECT_EQ(lines.points.size(), 2u * 7u);
 }
 
 TEST(FabricMarkers, copiesAreOutlinesInTheColourOfTheirAxis) {
-  ObjectMarkers markers({0.001, kTriangles}, 0);
+  ObjectMarkers markers({0.001, kTriangles}, "leader");
   const MarkerArray array = markers.draw(stateOf(kFlat, {{0.1, 0, 0}, {0, 0, -0.1}}));
   const std::vector<Marker> copies = markersOf(array, "copies");
   ASSERT_EQ(copies.size(), 2u);
@@ -97,13 +97,13 @@ TEST(FabricMarkers, copiesAreOutlinesInTheColourOfTheirAxis) {
 }
 
 TEST(FabricMarkers, closedSurfacesHaveAllTheirEdgesForAnOutline) {
-  ObjectMarkers markers({0.001, kTetrahedron}, 0);
+  ObjectMarkers markers({0.001, kTetrahedron}, "leader");
   const MarkerArray array = markers.draw(stateOf({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0.1, 0, 0}}));
   EXPECT_EQ(markersOf(array, "copies").at(0).points.size(), 2u * 6u);
 }
 
 TEST(FabricMarkers, copiesThatAreGoneAreDeleted) {
-  ObjectMarkers markers({0.001, kTriangles}, 0);
+  ObjectMarkers markers({0.001, kTriangles}, "leader");
   markers.draw(stateOf(kFlat, {{0.1, 0, 0}, {0, 0.1, 0}}));
   const std::vector<Marker> copies = markersOf(markers.draw(stateOf(kFlat, {{0.1, 0, 0}})), "copies");
   ASSERT_EQ(copies.size(), 2u);
@@ -112,7 +112,7 @@ TEST(FabricMarkers, copiesThatAreGoneAreDeleted) {
 }
 
 TEST(RodMarkers, aLineForTheObjectAndThinOnesForItsCopies) {
-  ObjectMarkers markers({0.03, {}}, 0);
+  ObjectMarkers markers({0.03, {}}, "leader");
   const MarkerArray array = markers.draw(stateOf(kFlat, {{0, 0.1, 0}}));
   const Marker object = markersOf(array, "object").at(0);
   const Marker copy = markersOf(array, "copies").at(0);
@@ -121,6 +121,20 @@ TEST(RodMarkers, aLineForTheObjectAndThinOnesForItsCopies) {
   EXPECT_EQ(object.scale.x, 0.03);
   EXPECT_LT(copy.scale.x, 0.01);
   EXPECT_GT(copy.color.g, copy.color.r);
+}
+
+TEST(AgentMarkers, theLeaderIsKnownByItsNameWhereverItStands) {
+  ObjectMarkers markers({0.03, {}}, "leader");
+  for (const std::vector<std::string>& agents : {std::vector<std::string>{"leader", "one"}, {"one", "leader"}}) {
+    ObjectState state = stateOf(kFlat, {});
+    state.agents = agents;
+    state.agent_positions.resize(6, 0.0);
+    const std::vector<Marker> balls = markersOf(markers.draw(state), "agents");
+    ASSERT_EQ(balls.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(balls[i].color.r > balls[i].color.b, agents[i] == "leader");
+    }
+  }
 }
 
 }  // namespace

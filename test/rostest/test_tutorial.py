@@ -35,8 +35,8 @@ class TutorialTest(unittest.TestCase):
     def run_command(self, command, arguments, folder):
         os.chdir(str(folder))
         if command == "rviz_snapshot":
-            module = "deformable_manipulation.commands." + command
-            self.check(["python3", "-m", module, *arguments, *EARLY])
+            program = ["python3", "-m", "deformable_manipulation.commands", command]
+            self.check([*program, *arguments, *EARLY])
             self.assertTrue(list(folder.glob("*.png")))
         elif command in NEEDED:
             module = importlib.import_module("deformable_manipulation.commands." + command)

@@ -63,7 +63,7 @@ class TrackedObstacleTest(FaultTest):
     def test_rviz_gets_its_surface_once_in_a_while_and_a_frame_that_follows(self):
         transforms, markers = Messages("/tf", TFMessage), Messages("markers", MarkerArray)
         array = markers.wait_for(
-            lambda each: each.markers[0].ns == "obstacles", "the obstacle", len(markers)
+            lambda each: each.markers[0].ns == "moving_obstacles", "the obstacle", len(markers)
         )
         (marker,) = array.markers
         self.assertTrue(marker.frame_locked)

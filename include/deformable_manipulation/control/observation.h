@@ -30,7 +30,8 @@ struct DistancesView {
 //!
 //! Copy 0 is the object itself. All in the fixed frame and of one time. A view: see DistancesView.
 struct ObservationView {
-  double time = 0.0;  //!< [s] of the state
+  double time = 0.0;      //!< [s] of the state
+  double lateness = 0.0;  //!< [s] by which commands that answer it act later than a cycle after it
   int agents = 0;
   int copies = 0;
   int points = 0;

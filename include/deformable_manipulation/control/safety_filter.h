@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "deformable_manipulation/control/constraint_rows.h"
 #include "deformable_manipulation/control/dual_active_set.h"
@@ -46,8 +47,12 @@ struct Filtered {
 //! quadratic penalty alone: it pulls, the more the farther it is missed, and never stands against a limit.
 //!
 //! Taking the minimum keeps a row that no velocity can satisfy from loosening the others of its tier; what it
-//! lacks shows in the reported slack. As one program with one solution, continuous in all that is given, it
-//! does not jump where limits begin to contradict one another.
+//! lacks shows in the reported slack. But of two rows of a limit that pull against each other the one that asks for
+//! more, in multiples of what the bounds allow, yields that much less: the coefficient of its s_t is less than one.
+//! Else, both out of reach, they would hold each other at the velocity in the middle of the bounds, for ever.
+//!
+//! As one program with one solution, continuous in all that is given, it does not jump where limits begin to
+//! contradict one another.
 class SafetyFilter {
  public:
   //! @param weights gamma [n], positive
@@ -87,6 +92,8 @@ class SafetyFilter {
   Status decide(const Given& given);
   bool holds(const Given& given) const;
   void formulate(const Given& given);
+  void measureDemands(const Given& given);
+  double yielding(const Given& given, int row) const;
   void addRow(const Given& given, int row);
   void addBounds(const Given& given);
   bool solve(const Given& given);
@@ -100,7 +107,8 @@ class SafetyFilter {
   QpSolver solver_;
   DualActiveSet native_;
   QuadraticProgram program_;
-  Eigen::VectorXd solution_;  // velocity, then slacks
+  std::vector<double> demands_;  // of the rows, in multiples of what the bounds allow
+  Eigen::VectorXd solution_;     // velocity, then slacks
   Filtered result_;
 };
 

@@ -11,13 +11,13 @@ using pbd::Vector3;
 
 //! Motion of the A agents, as predicted for the time at which the command acts.
 //!
-//! The command computed from state k acts from state k + 1 on. Until then, for `delay` seconds, the own agent
-//! moves with its previous command and the others with their measured velocities.
+//! The command computed from state k acts from state k + 1 on, or later if the answer is late. Until then, for `delay`
+//! seconds, the own agent moves with its previous command and the others with their measured velocities.
 struct Situation {
-  std::vector<Vector3> positions;   //!< [A] m, held points at state k + 1
-  std::vector<Vector3> velocities;  //!< [A] m/s, from state k to k + 1; expected to last
+  std::vector<Vector3> positions;   //!< [A] m, held points when the command begins to act
+  std::vector<Vector3> velocities;  //!< [A] m/s, from state k to then; expected to last
   int leader = 0;
-  double delay = 0.0;  //!< [s] from state k to k + 1
+  double delay = 0.0;  //!< [s] from state k to then
 
   const Vector3& leaderVelocity() const { return velocities[leader]; }
 };

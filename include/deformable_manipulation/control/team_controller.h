@@ -52,8 +52,8 @@ struct ControllerParameters {
 //! departure from the nominal velocities.
 //!
 //! The command computed from state k acts from state k + 1 to k + 2. So everything is predicted for state
-//! k + 1 to first order: the own held points move with the commands decided from state k - 1, the others with
-//! their measured velocities. The nominal law is
+//! k + 1 to first order (for a later one where the observation says that the answer is late): the own held points move
+//! with the commands decided before, the others with their measured velocities. The nominal law is
 //!
 //!   u_nom = k_p e + v_leader,  e = x_leader + reference - x  at state k + 1,
 //!

@@ -15,10 +15,11 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.runs import Campaign
 
 _TRIES = 3  # of a run whose workers are lost
+_PATIENCE = 60.0  # s, until a cluster's first worker has come
 
 
 class WorkersLost(RuntimeError):
-    """Runs could not be done because their workers ended again and again."""
+    """Runs could not be done: their workers ended again and again, or none came."""
 
 
 def run_here(campaign: Campaign, indices: Sequence[int], workers: int) -> Iterator[RunOutcome]:
@@ -74,13 +75,15 @@ def run_on_cluster(
 ) -> Iterator[RunOutcome]:
     """Do runs on the workers of a Dask scheduler; yields the outcomes as they come.
 
-    Dask gives the runs of a lost worker to another one. The workers need this package.
+    Waits for a first worker; others may come and go. Dask gives the runs of a lost worker to
+    another one. The workers need this package.
 
     Raises WorkersLost; OSError: the scheduler cannot be reached.
     """
     from dask import distributed  # optional
 
     with distributed.Client(address, timeout=10) as client:
+        _await_worker(client, address)
         shared = client.scatter(campaign, broadcast=True)
         futures = client.map(Campaign.run, [shared] * len(indices), indices, pure=False)
         for future in distributed.as_completed(futures):
@@ -92,6 +95,18 @@ def run_on_cluster(
                     f"{future.exception()}"
                 )
             yield future.result()
+
+
+def _await_worker(client, address: str) -> None:
+    from dask import distributed
+
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except distributed.TimeoutError:
+        raise WorkersLost(
+            f"no worker has come to the scheduler at {address} within {_PATIENCE:g} s; start some "
+            f"where this package is: dask worker {address}"
+        ) from None
 
 
 def cores() -> int:

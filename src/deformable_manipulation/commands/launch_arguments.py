@@ -7,7 +7,15 @@ from typing import Iterator, Sequence
 from deformable_manipulation.commands.arguments import overrides
 from deformable_manipulation.scenario.errors import Problem
 from deformable_manipulation.scenario.readers import nearest
-from deformable_manipulation.scenario.spec import CENTRALISED, DECENTRALISED, Scenario
+from deformable_manipulation.scenario.spec import (
+    CENTRALISED,
+    DECENTRALISED,
+    Scenario,
+    TopicMotion,
+)
+
+LEADER_INPUTS = ("waypoints", "hand")
+_BOOLS = ("true", "false")
 
 
 def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,9 +42,13 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         help="--assistants must name all of them: a lock-step run waits for each",
     )
     group.add_argument(
-        "--separate",
-        action="store_true",
-        help="each controller has a process of its own",
+        "--one-process",
+        metavar="BOOL",
+        help="false: each controller has a process of its own; none: a computer of its own",
+    )
+    group.add_argument("--leader-input", metavar="INPUT", help=" or ".join(LEADER_INPUTS))
+    group.add_argument(
+        "--drag-obstacles", metavar="BOOL", help="true: an obstacle must have motion.topic"
     )
     group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
     group.add_argument(
@@ -49,13 +61,36 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
     if arguments.assistants is not None:
         yield from _assistant_problems(arguments, scenario)
         yield from _knowledge_problems(scenario)
+    yield from _choice_problems(arguments)
     yield from _cooperation_problems(arguments, scenario)
+    yield from _drag_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
                       f"'{arguments.leader}'")
     if arguments.output is not None:
         yield from _folder_problems(arguments.output)
+
+
+def _choice_problems(arguments: argparse.Namespace) -> Iterator[Problem]:
+    for name, given, allowed in (
+        ("one_process", arguments.one_process, (*_BOOLS, "none")),
+        ("leader_input", arguments.leader_input, LEADER_INPUTS),
+        ("drag_obstacles", arguments.drag_obstacles, _BOOLS),
+    ):
+        if given is not None and given.lower() not in allowed:
+            yield Problem(name, "allowed: {} or {}".format(*allowed[:2]), f"'{given}'")
+
+
+def _drag_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    moved = any(isinstance(obstacle.motion, TopicMotion) for obstacle in scenario.obstacles)
+    if arguments.drag_obstacles == "true" and not moved:
+        yield Problem(
+            "drag_obstacles",
+            "no obstacle has motion.topic, so none can be dragged; give one, as in "
+            "set:='obstacles.0.motion={topic: block}'",
+            "'true'",
+        )
 
 
 def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
@@ -85,7 +120,7 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
 def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
     if scenario.controller.cooperation != CENTRALISED:
         return
-    if arguments.separate:
+    if arguments.one_process in ("false", "none"):
         yield Problem(
             "controller.cooperation",
             "one process decides for all assistants then; leave out one_process:=false (and "

@@ -9,6 +9,7 @@ from typing import List, Optional, Sequence
 from deformable_manipulation.commands.arguments import override
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.reproduction.display import JobDisplay
 from deformable_manipulation.reproduction.jobs import JobFailed, run_jobs
 from deformable_manipulation.reproduction.plan import Plan
 from deformable_manipulation.ros.program import ProgramError
@@ -127,16 +128,14 @@ def _make(plan: Plan) -> None:
     machine = describe_machine()
     started = time.monotonic()
     # Plots and runs go side by side; RViz and the campaigns take all cores by themselves.
-    for jobs, parallel in (
+    phases = (
         (plan.runs(), cores()),
         (plan.figures(), cores()),
         (plan.snapshots(), 1),
         (plan.campaign_jobs(), 1),
-    ):
-        run_jobs(jobs, parallel, _say)
+    )
+    display = JobDisplay(NAME, sum(len(jobs) for jobs, _ in phases), sys.stderr)
+    for jobs, parallel in phases:
+        run_jobs(jobs, parallel, display)
     write_page(plan, plan.folder / REPORT, machine, time.monotonic() - started)
     print(plan.folder / REPORT)
-
-
-def _say(text: str) -> None:
-    print(f"{NAME}: {text}", file=sys.stderr, flush=True)

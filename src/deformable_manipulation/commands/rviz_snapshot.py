@@ -9,7 +9,16 @@ from typing import Optional, Sequence
 from deformable_manipulation.authoring.rviz_choice import own_configuration, rviz_configuration
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
-from deformable_manipulation.commands.snapshot_arguments import NAME, parse_arguments
+from deformable_manipulation.commands.snapshot_arguments import (
+    AUTO,
+    NAME,
+    OVERLAID,
+    SEPARATE,
+    SIDE_BY_SIDE,
+    SIZE,
+    SIZE_IN_A_ROW,
+    parse_arguments,
+)
 from deformable_manipulation.commands.snapshot_source import SnapshotSource, read_source
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording import RunDataError
@@ -21,7 +30,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(argv)
     try:
         source = read_source(arguments.source, arguments.set, arguments.namespace)
-        first, last = source.time_range
+        _complete(arguments, source)
         _check(arguments, source)
     except ScenarioError as error:
         print(error, file=sys.stderr)
@@ -30,8 +39,6 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return fail(NAME, str(error))
     except OSError as error:
         return fail(NAME, f"cannot write the pictures: {error}")
-    if arguments.times is None and not arguments.video:
-        arguments.times = [0.5 * (first + last)]
     # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
     from deformable_manipulation.ros.program import ProgramError
 
@@ -45,6 +52,16 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         except KeyboardInterrupt as interrupt:
             return exit_status(interrupt)
     return 0
+
+
+def _complete(arguments: argparse.Namespace, source: SnapshotSource) -> None:
+    """Choose what is left to the command."""
+    if arguments.layout == AUTO:
+        arguments.layout = SIDE_BY_SIDE if source.hides_itself else OVERLAID
+    if arguments.size is None:
+        arguments.size = SIZE_IN_A_ROW if arguments.layout == SIDE_BY_SIDE else SIZE
+    if arguments.times is None and not arguments.video:
+        arguments.times = source.middle if arguments.layout == SEPARATE else source.telling_times()
 
 
 def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
@@ -68,7 +85,7 @@ def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
         writable_folder(arguments.video.parent)
     elif arguments.speed is not None:
         raise ValueError("--speed: is that of --video FILE.mp4, which is not given")
-    if arguments.times is not None or not arguments.video:
+    if arguments.times is not None:
         writable_folder(arguments.output)
 
 

@@ -8,14 +8,16 @@ from deformable_manipulation.commands.arguments import add_scenario_arguments, f
 
 NAME = "rviz_snapshot"
 LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
-SEPARATE, OVERLAID, SIDE_BY_SIDE = LAYOUTS = ("separate", "overlaid", "side_by_side")
+SEPARATE, OVERLAID, SIDE_BY_SIDE, AUTO = LAYOUTS = ("separate", "overlaid", "side_by_side", "auto")
+SIZE, SIZE_IN_A_ROW = (1280, 800), (640, 480)  # pixels
 DESCRIPTION = """Save pictures, or a video, of a run as RViz shows it. A recorded run is shown as it
 was; a scenario is run in lock-step for the pictures. On a ROS master and a virtual display of its
 own: nothing that runs already is disturbed, and no screen is needed."""
 EXAMPLES = """examples:
   rviz_snapshot rope_one_assistant --times 30,60,130
   rviz_snapshot output/run --times 30,60,130,160 --layout overlaid
-  rviz_snapshot output/run.bag --times 20,40,120,140 --layout side_by_side --size 640x480
+  rviz_snapshot output/run.bag --times 20,40,120,140 --layout side_by_side
+  rviz_snapshot output/run --layout auto
   rviz_snapshot output/run --video run.mp4
   rviz_snapshot my_scenario.yaml --output figures --size 1920x1080 --view YZ
   rviz_snapshot rope_one_assistant --set controller.collision.offset=0.1
@@ -42,14 +44,16 @@ def parse_arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--times",
         type=times_of,
         metavar="SECONDS",
-        help="when to take pictures, separated by commas (default: half of the duration)",
+        help="when to take pictures, separated by commas (default: half of the duration; for "
+        "several in one picture the lowest distance, the largest error and others)",
     )
     parser.add_argument(
         "--layout",
         choices=LAYOUTS,
         default=SEPARATE,
         help="a picture of each time, or all in one: over each other, the earlier ones paler, or "
-        "in a row; with their times (default: separate)",
+        "in a row; with their times. auto: in a row where they would hide each other, those of "
+        "fabrics and moving obstacles, else over each other (default: separate)",
     )
     parser.add_argument(
         "--video",
@@ -79,9 +83,8 @@ def _add_picture_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--size",
         type=size_of,
-        default=(1280, 800),
         metavar="WIDTHxHEIGHT",
-        help="of a picture, in pixels (default: 1280x800)",
+        help="of a picture, in pixels (default: 1280x800; in a row 640x480)",
     )
     parser.add_argument("--view", metavar="NAME", help="a saved view of the RViz configuration")
     parser.add_argument(

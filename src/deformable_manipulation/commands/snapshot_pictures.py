@@ -18,6 +18,7 @@ from deformable_manipulation.commands.snapshot_arguments import (
 from deformable_manipulation.commands.snapshot_source import SnapshotSource
 from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
 from deformable_manipulation.ros.label_marker import time_labels
+from deformable_manipulation.ros.obstacle_markers import MOVING_OBSTACLES
 from deformable_manipulation.ros.picture import save_png
 from deformable_manipulation.ros.picture_layout import is_alike, labelled, overlaid, side_by_side
 from deformable_manipulation.ros.rviz_view import without
@@ -32,7 +33,7 @@ _SMALL = ("agent_names", "copy_distances", "distances")
 _CROWDED = (*_SMALL, "copies")
 _TRAILS = "trails"
 _LOOKS = 15  # in a row, at a picture that may stay empty, for one at rest
-_MOVING = ("object", "object_lines", "agents")
+_MOVING = ("object", "object_lines", "agents", MOVING_OBSTACLES)
 
 
 def picture_name(scenario: str, times: Sequence[float], layout: str = SEPARATE) -> str:

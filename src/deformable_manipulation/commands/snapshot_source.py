@@ -1,18 +1,22 @@
 """What pictures are taken of: a scenario, which is run for them, or a recorded run."""
 
+import dataclasses
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional, Sequence, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from deformable_manipulation.recording import RunData, RunDataError, read_run
 from deformable_manipulation.recording.frames import Frames, read_frames
+from deformable_manipulation.recording.recorded_motion import with_recorded_motion
 from deformable_manipulation.recording.run_data import BAG_SUFFIXES, holds_run
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.spec import FabricSpec, Scenario
+
+_EVEN = (0.0, 0.25, 0.5, 0.75)  # of the duration
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,27 @@ class SnapshotSource:
         if self.frames is None:
             return 0.0, self.scenario.simulation.duration
         return self.run.time_range
+
+    @property
+    def middle(self) -> List[float]:
+        """The time [s] in the middle."""
+        return [0.5 * sum(self.time_range)]
+
+    def telling_times(self) -> List[float]:
+        """Times [s] that show what the run is about; of a scenario, which is not known yet, even
+        ones."""
+        if self.run is None:
+            return [share * self.scenario.simulation.duration for share in _EVEN]
+        # Imported late: plots.
+        from deformable_manipulation.overview_plot import snapshot_times
+
+        return np.clip(snapshot_times(self.run), *self.time_range).tolist()
+
+    @property
+    def hides_itself(self) -> bool:
+        """Whether pictures of several times over each other would show little."""
+        moves = any(obstacle.motion for obstacle in self.scenario.obstacles)
+        return moves or isinstance(self.scenario.object, FabricSpec)
 
     def bounds(self) -> np.ndarray:
         """The corners (2, 3) [m] of what there is to be seen."""
@@ -67,7 +92,8 @@ def read_source(
         raise RunDataError(f"--set cannot change {path}, which has been run already")
     run = read_run(path, namespace)
     frames = read_frames(run)
-    return SnapshotSource(frames.scenario, run, frames)
+    scenario = with_recorded_motion(frames)
+    return SnapshotSource(scenario, run, dataclasses.replace(frames, scenario=scenario))
 
 
 def _is_run(path: str) -> bool:

@@ -28,6 +28,7 @@ class Observation:
     velocities: Optional[np.ndarray] = None
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
+    lateness: float = 0.0  # s, by which commands that answer it act later than a cycle after it
 
 
 def find_fault(observation, agents):

@@ -1,14 +1,17 @@
 """Commands that run side by side, as many as there are cores, and what came of them."""
 
+import os
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, Iterable, List, Sequence, Tuple
+from typing import Iterable, List, Tuple
 
 from deformable_manipulation.interruption import check_interruption
+from deformable_manipulation.reproduction.display import JobDisplay, Running
 from deformable_manipulation.ros.program import Program
 
 _POLLING_PERIOD = 0.1  # s
+_TAIL = 300  # bytes of a log that hold its last line
 
 
 @dataclass(frozen=True)
@@ -25,41 +28,58 @@ class JobFailed(RuntimeError):
     """A command ended otherwise than it should; the end of what it printed is in the text."""
 
 
-def run_jobs(jobs: Iterable[Job], parallel: int, say: Callable[[str], None]) -> None:
-    """Run all jobs, ``parallel`` at a time in their order, and tell of each that is done.
+def run_jobs(jobs: Iterable[Job], parallel: int, display: JobDisplay) -> None:
+    """Run all jobs, ``parallel`` at a time in their order; the display tells how far they are.
 
     Raises:
         JobFailed: a job failed; the others have been ended.
         deformable_manipulation.ros.program.ProgramError: one cannot be started.
     """
     waiting = list(jobs)
-    total, done = len(waiting), 0
-    running: List[Tuple[Job, Program, float]] = []
+    running: List[_RunningJob] = []
     try:
         while waiting or running:
             check_interruption()
             while waiting and len(running) < parallel:
-                running.append(_start(waiting.pop(0)))
-            ended = [entry for entry in running if entry[1].exit_status is not None]
-            for entry in ended:
-                running.remove(entry)
-                done += 1
-                _check(entry)
-                job, _, started = entry
-                say(f"{done} of {total}: {job.title}, {time.monotonic() - started:.0f} s")
+                job = waiting.pop(0)
+                running.append(_RunningJob(job, Program(job.title, job.command, job.log)))
+            ended = [each for each in running if each.program.exit_status is not None]
+            for each in ended:
+                running.remove(each)
+                each.check()
+                display.done(each.job.title, each.seconds)
+            display.running([each.status() for each in running])
             if not ended:
                 time.sleep(_POLLING_PERIOD)
     finally:
-        for _, program, _ in running:
-            program.stop()
+        display.close()
+        for each in running:
+            each.program.stop()
 
 
-def _start(job: Job) -> Tuple[Job, Program, float]:
-    return job, Program(job.title, job.command, job.log), time.monotonic()
+@dataclass(frozen=True)
+class _RunningJob:
+    job: Job
+    program: Program
+    started: float = field(default_factory=time.monotonic)
+
+    @property
+    def seconds(self) -> float:
+        return time.monotonic() - self.started
+
+    def status(self) -> Running:
+        return Running(self.job.title, self.seconds, _last_line(self.job.log))
+
+    def check(self) -> None:
+        status = self.program.exit_status
+        if status not in self.job.accepted:
+            title = self.job.title
+            raise JobFailed(str(self.program.error(f"{title} ended with exit status {status}")))
 
 
-def _check(entry: Sequence) -> None:
-    job, program, _ = entry
-    status = program.exit_status
-    if status not in job.accepted:
-        raise JobFailed(str(program.error(f"{job.title} ended with exit status {status}")))
+def _last_line(log: Path) -> str:
+    """What a command has printed last; empty: nothing yet."""
+    with open(str(log), "rb") as file:
+        file.seek(max(file.seek(0, os.SEEK_END) - _TAIL, 0))
+        lines = file.read().decode("utf-8", "replace").split("\n")
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")

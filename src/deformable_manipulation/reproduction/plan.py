@@ -7,8 +7,8 @@ from typing import Dict, List, Sequence, Tuple
 
 from deformable_manipulation.commands.run_campaign import UNACCEPTABLE
 from deformable_manipulation.reproduction.jobs import Job
+from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.scenario import load_scenario
-from deformable_manipulation.scenario.spec import FabricSpec
 
 FULL, PAPER, UNFILTERED = "full", "paper", "filter_off"
 # What makes each variant of a run, and what the report calls it.
@@ -17,7 +17,6 @@ VARIANTS: Dict[str, Tuple[str, Tuple[str, ...]]] = {
     PAPER: ("paper's formulation", ("--set", "controller.formulation=paper")),
     UNFILTERED: ("safety filter off", ("--no-safety",)),
 }
-_SNAPSHOTS = (30 / 160, 60 / 160, 130 / 160, 1.0)  # of the duration
 _CAMPAIGN_SEED = 1
 _CAMPAIGN_DURATION = 60  # s, of each run
 
@@ -123,10 +122,8 @@ class Plan:
 
 
 def _snapshot_options(scenario: str, overrides: Sequence[Tuple[str, str]]) -> Tuple[str, ...]:
-    """Times as in the paper's figures; what would hide itself or its obstacle stands in a row."""
-    loaded = load_scenario(scenario, overrides)
-    times = [share * loaded.simulation.duration for share in _SNAPSHOTS]
-    moves = any(obstacle.motion for obstacle in loaded.obstacles)
-    in_a_row = moves or isinstance(loaded.object, FabricSpec)
-    layout = ("side_by_side", "--size", "640x480") if in_a_row else ("overlaid",)
-    return ("--times", ",".join(f"{time:.2f}" for time in times), "--layout", *layout)
+    """Several times in one picture, the paper's where it has some."""
+    times = PUBLISHED[scenario].snapshots if scenario in PUBLISHED else ()
+    if not times or times[-1] > load_scenario(scenario, overrides).simulation.duration:
+        return ("--layout", "auto")
+    return ("--layout", "auto", "--times", ",".join(f"{time:g}" for time in times))

@@ -7,6 +7,9 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
 
+_NONE = "–"
+_NEGLIGIBLE = 1e-6  # m
+
 
 class Table(NamedTuple):
     """A table of texts."""
@@ -16,14 +19,18 @@ class Table(NamedTuple):
 
 
 def safety_table(plan: Plan) -> Table:
-    """What every run kept of its limits, in mm."""
+    """What the paper's runs and those here kept of their limits, in mm."""
     header = (
-        ("scenario", "safety filter", "offset [mm]", "lowest distance [mm]")
+        ("scenario", "formulation", "offset [mm]", "lowest distance [mm]")
         + ("lowest overstretch margin [mm]", "lowest proximity margin [mm]")
         + ("programs relaxed", "failed", "largest error at the end [mm]")
     )
     rows = []
     for name in plan.scenarios:
+        if name in PUBLISHED:
+            paper = PUBLISHED[name]
+            known = (millimetres(paper.offset), millimetres(paper.min_distance))
+            rows.append((name, "reported in the paper", *known, *[_NONE] * (len(header) - 4)))
         for variant, (title, _) in VARIANTS.items():
             summary = read_summary(plan, name, variant)
             finals = [error["final"] for error in summary["tracking_error"].values()]
@@ -45,9 +52,8 @@ def time_table(plan: Plan) -> Table:
     header = ("scenario", "", "simulations", "minimum distance", "QP solver")
     rows = []
     for name in plan.scenarios:
-        if name in PUBLISHED:
-            paper = PUBLISHED[name]
-            times = (paper.simulation, paper.distance, paper.solver)
+        times = PUBLISHED[name].times if name in PUBLISHED else None
+        if times:
             rows.append((name, "paper, average", *(f"{value:.1f}" for value in times)))
         rows.append((name, "here, median", *_times(plan, name)))
     return Table(header, rows)
@@ -56,7 +62,7 @@ def time_table(plan: Plan) -> Table:
 def campaign_table(plan: Plan) -> Table:
     """What every campaign counted."""
     header = (
-        ("scenario", "safety filter", "runs", "runs short of the offset", "by at most [mm]")
+        ("scenario", "formulation", "runs", "runs short of the offset", "by at most [mm]")
         + ("runs overstretched", "by at most [mm]", "deadlocks", "programs failed")
     )
     rows = []
@@ -80,11 +86,14 @@ def read_summary(plan: Plan, scenario: str, variant: str) -> Dict[str, object]:
 def millimetres(metres) -> str:
     """A length [m] in mm, or a dash where there is none."""
     if metres is None:
-        return "–"
-    return f"{1e3 * metres:.1f}" if abs(metres) >= 1e-4 else f"{1e3 * metres:.2g}"
+        return _NONE
+    if 0.0 < abs(metres) < _NEGLIGIBLE:
+        return f"< {1e3 * _NEGLIGIBLE:g}"
+    digits = 1 if abs(metres) >= 1e-4 else 3
+    return f"{1e3 * metres:.{digits}f}"
 
 
 def _times(plan: Plan, scenario: str) -> List[str]:
     timing = read_summary(plan, scenario, FULL)["timing"]
     medians = [timing[part]["median_ms"] for part in ("simulation", "distance", "solver")]
-    return ["–" if value is None else f"{value:.3f}" for value in medians]
+    return [_NONE if value is None else f"{value:.3f}" for value in medians]

@@ -4,6 +4,8 @@ The messages are read and written through ``rospy.numpy_msg``, so their arrays a
 Agents are matched by name: a message may list them in another order than the scenario.
 """
 
+import math
+
 import numpy as np
 
 from deformable_manipulation.control.observation import Observation
@@ -40,10 +42,12 @@ def agent_positions(state, scenario) -> np.ndarray:
     return positions[agent_order(state, scenario)]
 
 
-def to_observation(state, distances, scenario) -> Observation:
+def to_observation(state, distances, scenario, age=0.0) -> Observation:
     """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
-    Time counts from the start of the run: cycles of the scenario's rate.
+    Time counts from the start of the run: cycles of the scenario's rate. ``age`` [s] is that of the
+    state: commands act when a cycle starts, so each whole cycle that has passed makes them late by
+    one.
 
     Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
@@ -68,7 +72,13 @@ def to_observation(state, distances, scenario) -> Observation:
         distances=distances,
         velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
+        lateness=_whole_cycles(age, scenario.cycle_time),
     )
+
+
+def _whole_cycles(age, cycle_time):
+    """The part of an age [s] that is whole cycles; none of a state from the future."""
+    return cycle_time * max(0, math.floor(age / cycle_time))
 
 
 def require_frame(name, message, scenario):

@@ -18,6 +18,8 @@ from deformable_manipulation.scenario.spec import MeshObstacle
 # viewers that come late would hold up the distances.
 _MOST_TRIANGLES = 1000
 
+MOVING_OBSTACLES = "moving_obstacles"  # their namespace
+
 _GROUND = np.array([0.80, 0.78, 0.74])  # red, green, blue
 _LINE = ColorRGBA(0.75, 0.0, 0.55, 1.0)
 _COPY_LINE = ColorRGBA(0.75, 0.0, 0.55, 0.35)
@@ -48,6 +50,7 @@ def obstacle_markers(obstacles, frame, half_width=0.25, tf_prefix=""):
     for index, obstacle in enumerate(obstacles):
         marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST)
         if obstacle.motion is not None:
+            marker.ns = MOVING_OBSTACLES
             marker.header.frame_id = obstacle_frame(obstacle, tf_prefix)
             marker.frame_locked = True
             obstacle = dataclasses.replace(

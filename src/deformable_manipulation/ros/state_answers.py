@@ -50,8 +50,7 @@ class StateAnswers:
         observation, fault = None, ""
         try:
             distances = distances_of()
-            self._require_fresh(state)
-            observation = to_observation(state, distances, self._scenario)
+            observation = to_observation(state, distances, self._scenario, self._age(state))
         except MessageError as error:
             fault = f"cycle {state.cycle} cannot be used, {error}"
         decisions = self._decide(state, observation, fault)
@@ -89,9 +88,12 @@ class StateAnswers:
         if not self._lockstep:  # there everybody waits for everybody
             node.every(0.5 * self._scenario.controller.timeout, check)
 
-    def _require_fresh(self, state):
+    def _age(self, state):
+        """Age [s] of a state that is about to be answered. Raises MessageError: it is too old."""
         if self._lockstep:  # the state waits for the answer, however long that takes
-            return
-        fault = find_age_fault(age_of(state), self._scenario.controller.timeout)
+            return 0.0
+        age = age_of(state)
+        fault = find_age_fault(age, self._scenario.controller.timeout)
         if fault:
             raise MessageError(fault)
+        return age

@@ -127,8 +127,8 @@ def test_the_runs_of_a_killed_worker_are_done_again(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def cluster():
-    """Address of a Dask scheduler with two workers, all processes of their own."""
+def scheduler():
+    """Address of a Dask scheduler, and a function that starts a worker; each is a process."""
     pytest.importorskip("distributed")
     processes = []
 
@@ -138,16 +138,23 @@ def cluster():
         processes.append(process)
         return process
 
-    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
-    address = next(
-        line.split()[-1] for line in scheduler.stderr if "Scheduler at:" in line
-    ).strip()
-    for _ in range(2):
-        start("dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
-    yield address
+    started = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    address = next(line.split()[-1] for line in started.stderr if "Scheduler at:" in line).strip()
+    yield address, lambda: start(
+        "dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"
+    )
     for process in processes:
         process.kill()
         process.communicate()
+
+
+@pytest.fixture
+def cluster(scheduler):
+    """Address of a Dask scheduler with two workers."""
+    address, start_worker = scheduler
+    for _ in range(2):
+        start_worker()
+    return address
 
 
 def test_a_cluster_gives_the_same_outcomes(folder, cluster, tmp_path):
@@ -160,3 +167,26 @@ def test_a_cluster_that_is_not_there(tmp_path, capsys):
     arguments = [*SHORT, "--runs", "1", "--output", str(tmp_path / "none")]
     assert run_campaign.main([*arguments, "--cluster", "tcp://127.0.0.1:9"]) == 1
     assert "run_campaign:" in capsys.readouterr().err
+
+
+def test_a_cluster_whose_workers_come_late(folder, scheduler, monkeypatch):
+    address, start_worker = scheduler
+    client = pytest.importorskip("distributed").Client
+    wait = client.wait_for_workers
+
+    def wait_from_now_on(self, *arguments, **settings):
+        start_worker()
+        return wait(self, *arguments, **settings)
+
+    monkeypatch.setattr(client, "wait_for_workers", wait_from_now_on)
+    scenario = load_scenario("rope_one_assistant")
+    campaign = Campaign(scenario, Ranges(speed=0.15, duration=45.0), seed=5)
+    (outcome,) = workers.run_on_cluster(campaign, [0], address)
+    assert outcome.min_distance == pytest.approx(float(outcomes(folder)[0]["min_distance"]))
+
+
+def test_a_cluster_without_workers(scheduler, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(workers, "_PATIENCE", 0.1)
+    arguments = [*SHORT, "--runs", "1", "--output", str(tmp_path / "none")]
+    assert run_campaign.main([*arguments, "--cluster", scheduler[0]]) == 1
+    assert "no worker has come to the scheduler at tcp://127.0.0.1" in capsys.readouterr().err

@@ -1,4 +1,7 @@
-"""Closed loop on objects that follow their held points at once, one cycle of delay."""
+"""Closed loop on objects that follow their held points at once, one cycle of delay or more."""
+
+import dataclasses
+from collections import deque
 
 import control_builders as build
 import numpy as np
@@ -13,25 +16,32 @@ class Run:
     """Histories of a run: time first.
 
     ``body``: a :class:`~control_builders.LinearObject`; default: a chain that hangs through by
-    ``sag`` [m].
+    ``sag`` [m]. The assistants' answers come ``late`` by so many cycles; they are ``told`` so, or
+    not.
     """
 
-    def __init__(self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, **settings):
+    def __init__(
+        self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, late=0, told=True,
+        **settings,
+    ):
         controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]
         leader = LeaderController(scenario)
         body = body or build.hanging_chain(len(scenario.agents), sag)
         positions = np.array([agent.start for agent in scenario.agents])
-        acting = np.zeros_like(positions)
+        leading, following = np.zeros(3), deque([np.zeros_like(positions[1:])] * (late + 1))
         states, decisions = [], []
         for k in range(round(duration / scenario.cycle_time)):
             time = k * scenario.cycle_time
-            observation = build.observe(time, positions, body, obstacle.at(time), cycle=k)
+            observation = dataclasses.replace(
+                build.observe(time, positions, body, obstacle.at(time), cycle=k),
+                lateness=late * scenario.cycle_time if told else 0.0,
+            )
             decided = [each for team in controllers for each in team.update(observation).values()]
             states.append(positions)
             decisions.append(decided)
-            commands = [leader.update(time, positions[0])] + [each.command for each in decided]
-            positions = positions + scenario.cycle_time * acting
-            acting = np.array(commands)
+            following.append(np.array([each.command for each in decided]))
+            acting, leading = leading, leader.update(time, positions[0])
+            positions = positions + scenario.cycle_time * np.vstack((acting, following.popleft()))
         self.positions = np.array(states)
         self.decisions = decisions
 

@@ -101,8 +101,8 @@ def test_disabled_sends_zero_and_still_measures(scenario):
 @pytest.mark.parametrize("safety", [True, False])
 @pytest.mark.parametrize(
     "field",
-    ["time", "positions", "points", "displacements", "distances.minimum", "distances.distance",
-     "distances.normal", "distances.weights", "distances.obstacle_velocity"],
+    ["time", "lateness", "positions", "points", "displacements", "distances.minimum",
+     "distances.distance", "distances.normal", "distances.weights", "distances.obstacle_velocity"],
 )
 def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, value, safety):
     controller = AssistantController(scenario, "assistant_1", safety=safety)
@@ -118,8 +118,8 @@ def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, val
 def broken(observation, field, value):
     owner, _, name = field.rpartition(".")
     part = observation.distances if owner else observation
-    if name == "time":
-        return dataclasses.replace(observation, time=value)
+    if name in ("time", "lateness"):
+        return dataclasses.replace(observation, **{name: value})
     array = getattr(part, name).astype(float)
     array.flat[-1] = value
     changed = dataclasses.replace(part, **{name: array})

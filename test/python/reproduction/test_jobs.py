@@ -1,9 +1,12 @@
 """Commands side by side: all are run, a failure ends the others and tells why."""
 
+import io
+import re
 import sys
 
 import pytest
 
+from deformable_manipulation.reproduction.display import JobDisplay, Running
 from deformable_manipulation.reproduction.jobs import Job, JobFailed, run_jobs
 
 
@@ -11,18 +14,23 @@ def job(tmp_path, name, code, accepted=(0,)):
     return Job(name, (sys.executable, "-c", code), tmp_path / f"{name}.log", accepted)
 
 
+def display(total, stream=None):
+    return JobDisplay("reproduce", total, stream or io.StringIO())
+
+
 def test_all_jobs_are_run_and_told(tmp_path):
-    said = []
+    stream = io.StringIO()
     jobs = [job(tmp_path, name, f"print('{name}')") for name in ("one", "two", "three")]
-    run_jobs(jobs, 2, said.append)
+    run_jobs(jobs, 2, display(3, stream))
     assert [(tmp_path / f"{each.title}.log").read_text() for each in jobs] == [
         "one\n", "two\n", "three\n"
     ]
-    assert [line.split(":")[0] for line in said] == ["1 of 3", "2 of 3", "3 of 3"]
+    told = [line.split(":")[1] for line in stream.getvalue().splitlines()]
+    assert told == [" 1 of 3", " 2 of 3", " 3 of 3"]
 
 
 def test_statuses_that_are_accepted(tmp_path):
-    run_jobs([job(tmp_path, "three", "raise SystemExit(3)", accepted=(0, 3))], 1, lambda _: None)
+    run_jobs([job(tmp_path, "three", "raise SystemExit(3)", accepted=(0, 3))], 1, display(1))
 
 
 def test_a_failure_ends_the_others_and_tells_why(tmp_path):
@@ -32,5 +40,30 @@ def test_a_failure_ends_the_others_and_tells_why(tmp_path):
         job(tmp_path, "broken", "raise SystemExit('no such thing')"),
     ]
     with pytest.raises(JobFailed, match="broken ended with exit status 1(.|\n)*no such thing"):
-        run_jobs(jobs, 2, lambda _: None)
+        run_jobs(jobs, 2, display(2))
     assert not mark.exists()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_terminal_shows_what_is_running_until_it_is_done(tmp_path):
+    code = "import time; print('  40 %', flush=True); time.sleep(1)"
+    stream = Terminal()
+    run_jobs([job(tmp_path, "long", code)], 1, display(1, stream))
+    shown = stream.getvalue()
+    assert re.search(r"\r\x1b\[Klong \(\d+ s, 40 %\)", shown)
+    assert re.search(r"\r\x1b\[Kreproduce: 1 of 1: long, \d+ s\n$", shown)
+
+
+def test_a_log_is_told_now_and_then(monkeypatch):
+    now = 0.0
+    monkeypatch.setattr("time.monotonic", lambda: now)
+    stream = io.StringIO()
+    shown = display(1, stream)
+    for now in range(1, 41):
+        shown.running([Running("long", now, "")])
+    lines = stream.getvalue().splitlines()
+    assert lines == ["reproduce: running: long (15 s)", "reproduce: running: long (30 s)"]

@@ -99,6 +99,18 @@ def test_measured_velocities_come_in_the_scenario_s_order(state, distances, scen
         conversions.to_observation(transmitted(state), transmitted(distances), scenario)
 
 
+@pytest.mark.parametrize(
+    "cycles, late", [(-3.5, 0), (0.0, 0), (0.95, 0), (1.05, 1), (2.95, 2)]
+)
+def test_a_state_s_age_tells_by_how_many_cycles_its_answer_is_late(
+    state, distances, scenario, cycles, late
+):
+    received = conversions.to_distances(transmitted(distances))
+    age = cycles * scenario.cycle_time
+    seen = conversions.to_observation(transmitted(state), received, scenario, age)
+    assert seen.lateness == pytest.approx(late * scenario.cycle_time)
+
+
 def test_distances_arrive_as_they_were_computed(distances, computed):
     received = conversions.to_distances(transmitted(distances))
     for name in vars(computed):

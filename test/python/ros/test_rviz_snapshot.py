@@ -115,3 +115,14 @@ def test_a_video_lasts_twenty_seconds_unless_told_otherwise():
     assert speed == 1.0 and len(times) == 6 * 25 + 1 and times[0] == 2.0
     times, _ = film_times(0.0, 160.0, 32.0)
     assert len(times) == 5 * 25 + 1
+
+
+def test_what_is_left_to_the_command(run_folder):
+    source = read_source(str(run_folder), [], None)
+    assert source.middle == [pytest.approx(0.1)]
+    times = source.telling_times()
+    assert len(times) > 1 and 0.0 <= times[0] < times[-1] <= source.time_range[1]
+    assert not source.hides_itself
+    fabric = read_source("fabric_three_assistants", [], None)
+    assert fabric.hides_itself and fabric.telling_times() == [0.0, 225.0, 450.0, 675.0]
+    assert read_source("rope_moving_obstacle", [], None).hides_itself
