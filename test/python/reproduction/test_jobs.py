@@ -1,6 +1,7 @@
 """Commands side by side: all are run, a failure ends the others and tells why."""
 
 import io
+import os
 import re
 import sys
 
@@ -45,13 +46,27 @@ def test_a_failure_ends_the_others_and_tells_why(tmp_path):
 
 
 class Terminal(io.StringIO):
+    """Tells by a pipe, which a job waits for, that it has shown how far the job is."""
+
+    def __init__(self, pipe):
+        super().__init__()
+        self._pipe = pipe
+
     def isatty(self):
         return True
 
+    def write(self, text):
+        if "40 %" in text and self._pipe.exists():
+            self._pipe.write_text("shown")
+            self._pipe.unlink()
+        return super().write(text)
+
 
 def test_a_terminal_shows_what_is_running_until_it_is_done(tmp_path):
-    code = "import time; print('  40 %', flush=True); time.sleep(1)"
-    stream = Terminal()
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    code = f"print('  40 %', flush=True); open({str(pipe)!r}).read()"
+    stream = Terminal(pipe)
     run_jobs([job(tmp_path, "long", code)], 1, display(1, stream))
     shown = stream.getvalue()
     assert re.search(r"\r\x1b\[Klong \(\d+ s, 40 %\)", shown)
