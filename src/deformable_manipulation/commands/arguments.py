@@ -9,6 +9,16 @@ from typing import List, Sequence, Tuple
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
 
 
+def command_parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:
+    """The parser of a command, whose help keeps the line breaks of both texts."""
+    return argparse.ArgumentParser(
+        prog=name,
+        description=description,
+        epilog=epilog,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
 def add_scenario_arguments(
     parser: argparse.ArgumentParser,
     name: str = "scenario",

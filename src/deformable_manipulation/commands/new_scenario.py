@@ -13,7 +13,7 @@ from deformable_manipulation.authoring.places import Places, new_places
 from deformable_manipulation.authoring.rviz_choice import rviz_configuration
 from deformable_manipulation.authoring.scenario_text import NoMaterial, moved_text
 from deformable_manipulation.authoring.yaml_edit import replace_scalars
-from deformable_manipulation.commands.arguments import folder_name
+from deformable_manipulation.commands.arguments import command_parser, folder_name
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.scenario import (
     ScenarioError,
@@ -63,12 +63,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser(NAME, DESCRIPTION, EXAMPLES)
     parser.add_argument(
         "name", type=scenario_name, metavar="NAME", help="lower-case letters, digits and single _"
     )

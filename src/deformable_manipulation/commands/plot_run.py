@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import folder_name, times_of
+from deformable_manipulation.commands.arguments import command_parser, folder_name, times_of
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
@@ -57,12 +57,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser(NAME, DESCRIPTION, EXAMPLES)
     parser.add_argument("path", help="run folder, bag, or folder that holds one bag")
     parser.add_argument(
         "--output",

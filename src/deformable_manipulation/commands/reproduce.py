@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import override
+from deformable_manipulation.commands.arguments import command_parser, override
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.reproduction.display import JobDisplay
@@ -57,12 +57,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser(NAME, DESCRIPTION, EXAMPLES)
     parser.add_argument(
         "scenarios",
         nargs="*",

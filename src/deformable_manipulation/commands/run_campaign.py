@@ -15,7 +15,11 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
 from deformable_manipulation.campaign.runs import Campaign
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.arguments import (
+    add_scenario_arguments,
+    command_parser,
+    folder_name,
+)
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
@@ -61,12 +65,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog="run_campaign",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("run_campaign", DESCRIPTION, EPILOG)
     add_scenario_arguments(parser)
     defaults = Ranges()
     parser.add_argument(

@@ -4,7 +4,12 @@ import argparse
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name, times_of
+from deformable_manipulation.commands.arguments import (
+    add_scenario_arguments,
+    command_parser,
+    folder_name,
+    times_of,
+)
 
 NAME = "rviz_snapshot"
 LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
@@ -29,12 +34,7 @@ exit status: 0 every picture is saved, 1 one is not (the reason is on stderr), 2
 
 def parse_arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     """Read the command line; leaves the process where it is wrong."""
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser(NAME, DESCRIPTION, EXAMPLES)
     add_scenario_arguments(
         parser,
         "source",

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import Dict, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import folder_name
+from deformable_manipulation.commands.arguments import command_parser, folder_name
 from deformable_manipulation.interruption import exit_status, interruptible
 
 NAME = "validate"
@@ -63,12 +63,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog=NAME,
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser(NAME, DESCRIPTION, EPILOG)
     parser.add_argument(
         "--output",
         metavar="DIR",
