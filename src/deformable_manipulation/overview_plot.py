@@ -100,9 +100,7 @@ def _plot_distance(axis, run: RunData) -> None:
 
 def _plot_errors(axis, run: RunData) -> None:
     for series, style in zip(run.assistants, _STYLES * len(run.assistants)):
-        axis.plot(
-            series.time, series.error_norm, style, color=COLOURS[0], label=series.agent
-        )
+        axis.plot(series.time, series.error_norm, style, color=COLOURS[0], label=series.agent)
     axis.set_ylabel("error [m]")
     axis.set_ylim(bottom=0.0)
     if len(run.assistants) > 1:

@@ -11,8 +11,11 @@ ROUNDING = 1e-9
 limits = st.tuples(st.floats(0.01, 5.0), st.floats(0.05, 20.0), st.floats(1e-3, 0.1))
 vector = st.tuples(*[st.floats(-1e6, 1e6)] * 3)
 # What is asked for, and for how many cycles.
-requests = st.lists(st.tuples(st.sampled_from(["towards", "along"]), vector, st.integers(1, 60)),
-                    min_size=1, max_size=6)
+requests = st.lists(
+    st.tuples(st.sampled_from(["towards", "along"]), vector, st.integers(1, 60)),
+    min_size=1,
+    max_size=6,
+)
 
 
 def follow(motion, requests, dt, position, velocity=(0.0, 0.0, 0.0)):
@@ -50,8 +53,10 @@ def test_arrives_without_overshoot_in_the_shortest_time(limits, target):
     way = np.abs(target - start).max()
     # At the speed allowed, with the two changes of speed; a cycle each for delay and rounding up.
     ramp = max_velocity / max_acceleration
-    fastest = way / max_velocity + ramp if way > ramp * max_velocity else 2.0 * np.sqrt(
-        way / max_acceleration
+    fastest = (
+        way / max_velocity + ramp
+        if way > ramp * max_velocity
+        else 2.0 * np.sqrt(way / max_acceleration)
     )
     cycles = int(fastest / dt) + 4
     if cycles > 5000:

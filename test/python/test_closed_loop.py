@@ -214,9 +214,7 @@ def test_the_command_without_the_filter(tmp_path, capsys):
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert not summary["safety"]
     assert summary["min_distance"] < 0.0
-    assert summary["worst_violation"] == pytest.approx(
-        summary["offset"] - summary["min_distance"]
-    )
+    assert summary["worst_violation"] == pytest.approx(summary["offset"] - summary["min_distance"])
     assert "lowest distance" in capsys.readouterr().out
 
 

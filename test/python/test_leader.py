@@ -36,8 +36,10 @@ def scenario():
     return Scenario(
         name="test",
         object=RodSpec(2.25, 0.0035, 1792.89, 28, 3e7, 1e7),
-        agents=(AgentSpec("leader", 0, "leader", start=(1.0, 2.0, 3.0)),
-                AgentSpec("assistant_1", 27, "assistant")),
+        agents=(
+            AgentSpec("leader", 0, "leader", start=(1.0, 2.0, 3.0)),
+            AgentSpec("assistant_1", 27, "assistant"),
+        ),
         obstacles=(),
         leader=LeaderSpec(WAYPOINTS),
         controller=ControllerSpec(collision=CollisionSpec(offset=0.05)),

@@ -14,7 +14,10 @@ OBJECTS = {
 STARTS = {  # particle -> position [m]
     "rod": {0: [0.0, 0.0, 0.0], 27: [1.6, 0.0, 0.0]},
     "fabric": {
-        0: [0.04, 0.04, 0.0], 6: [0.96, 0.04, 0.0], 42: [0.04, 0.96, 0.0], 48: [0.96, 0.96, 0.0]
+        0: [0.04, 0.04, 0.0],
+        6: [0.96, 0.04, 0.0],
+        42: [0.04, 0.96, 0.0],
+        48: [0.96, 0.96, 0.0],
     },
 }
 SPEED = 0.1  # m/s, of the assistants, upwards
@@ -24,7 +27,9 @@ CYCLE = 0.01  # s
 def scenario_of(kind, name):
     agents = {
         f"agent_{particle}": {
-            "particle": particle, "role": "assistant" if particle else "leader", "start": start
+            "particle": particle,
+            "role": "assistant" if particle else "leader",
+            "start": start,
         }
         for particle, start in STARTS[kind].items()
     }

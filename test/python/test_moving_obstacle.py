@@ -66,10 +66,19 @@ def test_distances_are_those_of_an_obstacle_that_stands_there(scenario):
         for time in (0.0, 5.0, 11.0, 20.0):
             obstacles.move(moved, time)
             pose = ObstaclePath(scenario.obstacles[0]).at(time)
-            standing = make_minimum_distance(dataclasses.replace(scenario, obstacles=(
-                dataclasses.replace(scenario.obstacles[0], translation=pose.translation,
-                                    rotation=pose.rotation, motion=None),
-            )))
+            standing = make_minimum_distance(
+                dataclasses.replace(
+                    scenario,
+                    obstacles=(
+                        dataclasses.replace(
+                            scenario.obstacles[0],
+                            translation=pose.translation,
+                            rotation=pose.rotation,
+                            motion=None,
+                        ),
+                    ),
+                )
+            )
             found, expected = moved.compute(points[None]), standing.compute(points[None])
             assert found.minimum[0] == pytest.approx(expected.minimum[0], abs=1e-6)
             arms = found.obstacle_point - pose.translation

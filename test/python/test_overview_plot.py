@@ -42,8 +42,11 @@ def test_the_object_is_drawn_at_the_times_asked_for(run):
 def test_every_assistant_has_its_error(run):
     panel = plot_overview(run, read_frames(run)).axes[2]
     for series in run.assistants:
-        assert any(np.allclose(line[:, 1], series.error_norm) for line in lines_of(panel)
-                   if len(line) == len(series.time))
+        assert any(
+            np.allclose(line[:, 1], series.error_norm)
+            for line in lines_of(panel)
+            if len(line) == len(series.time)
+        )
 
 
 def test_telling_times_are_the_start_and_the_lowest_distance(run):

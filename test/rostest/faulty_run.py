@@ -121,8 +121,10 @@ class FaultTest(unittest.TestCase):
     def assert_waits(self, *words):
         """The controller waits from now on, sooner or later, and says why with these words."""
         decision = self.decisions.wait_for(
-            lambda decision: decision.status == Status.WAITING
-            and all(word in decision.status_text for word in words),
+            lambda decision: (
+                decision.status == Status.WAITING
+                and all(word in decision.status_text for word in words)
+            ),
             "waiting: {}".format(words),
             len(self.decisions),
         )

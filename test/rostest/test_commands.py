@@ -184,6 +184,5 @@ class PatientSimulatorTest(unittest.TestCase):
         commander.wait_for_velocity(REST, start)
 
 
-
 if __name__ == "__main__":
     run_tests("commands")

@@ -70,9 +70,7 @@ class DiagnosticsTest(FaultTest):
         os.kill(process, signal.SIGSTOP)
         try:
             self.wait_for_report("controller: inputs", DiagnosticStatus.STALE, "No distances for")
-            self.wait_for_report(
-                PROGRAM, DiagnosticStatus.ERROR, "no distances for"
-            )
+            self.wait_for_report(PROGRAM, DiagnosticStatus.ERROR, "no distances for")
             self.wait_for_report(
                 "controller: cycle", DiagnosticStatus.STALE, "No state to answer for"
             )

@@ -51,8 +51,9 @@ class FaultClockTest(FaultTest):
         start = len(self.states) - 1
         self.clock.offset += offset
         after = self.states.wait_for(
-            lambda state: abs((state.header.stamp - self.states[start].header.stamp).to_sec())
-            > 0.5 * LEAP,
+            lambda state: (
+                abs((state.header.stamp - self.states[start].header.stamp).to_sec()) > 0.5 * LEAP
+            ),
             "a state after the leap",
             start,
         )

@@ -206,8 +206,14 @@ class FaultMessagesTest(FaultTest):
         ):
             self.assert_stops_and_goes_on(["state"], how, "cannot be used")
         for how in without_last_of(
-            ["minimum_distances", "feature_offsets", "feature_distances", "normals",
-             "feature_vertices", "feature_weights"]
+            [
+                "minimum_distances",
+                "feature_offsets",
+                "feature_distances",
+                "normals",
+                "feature_vertices",
+                "feature_weights",
+            ]
         ):
             self.assert_stops_and_goes_on(["distances"], how, "Waits")
 

@@ -28,9 +28,7 @@ ALONG_Y = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
 class FaultPoseTest(FaultTest):
     @classmethod
     def setUpClass(cls):
-        cls.leader = WalkingPose(
-            "leader/pose", [0.0, 0.0, 1.35], [SPEED, 0.0, 0.0], ALONG_Y
-        )
+        cls.leader = WalkingPose("leader/pose", [0.0, 0.0, 1.35], [SPEED, 0.0, 0.0], ALONG_Y)
         super().setUpClass()
 
     def tearDown(self):

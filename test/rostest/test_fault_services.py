@@ -31,8 +31,12 @@ NONSENSE = (
     ("young_modulus", "set_material", SetMaterial, [["young_modulus"], [INFINITY]]),
     ("damping", "set_material", SetMaterial, [["damping"], [-1.0]]),
     ("must be young_modulus", "set_material", SetMaterial, [[""], [1.0]]),
-    ("displacement", "set_perturbations", SetPerturbations,
-     [[AGENT], [Vector3(INFINITY, 0.0, 0.0)], True]),
+    (
+        "displacement",
+        "set_perturbations",
+        SetPerturbations,
+        [[AGENT], [Vector3(INFINITY, 0.0, 0.0)], True],
+    ),
     ("same length", "set_perturbations", SetPerturbations, [[], [UP], True]),
     ("no agent", "clear_perturbations", ClearPerturbations, [[""]]),
     ("not paused", "step", Step, [10]),
@@ -71,7 +75,11 @@ class FaultServicesTest(FaultTest):
 
     def test_a_controller_without_states(self):
         self.start(
-            "lonely", "_agent:=" + AGENT, "_enabled:=false", "state:=nothing", "distances:=nothing",
+            "lonely",
+            "_agent:=" + AGENT,
+            "_enabled:=false",
+            "state:=nothing",
+            "distances:=nothing",
             "{0}/enable:=lonely/enable".format(AGENT),
             "{0}/take_reference:=lonely/take_reference".format(AGENT),
             "{0}/cmd_vel:=lonely/cmd_vel".format(AGENT),

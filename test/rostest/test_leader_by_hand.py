@@ -52,8 +52,9 @@ class LeaderByHandTest(unittest.TestCase):
         call("reset", Trigger)
         self.start = np.array(self.scenario.agents[self.row].start)
         self.states.wait_for(
-            lambda state: state.reset_count > resets
-            and np.array_equal(self.position(state), self.start),
+            lambda state: (
+                state.reset_count > resets and np.array_equal(self.position(state), self.start)
+            ),
             "the start",
         )
 

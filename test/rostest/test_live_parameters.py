@@ -72,8 +72,9 @@ class LiveParametersTest(unittest.TestCase):
         answered = self.decisions[-1]
         self.assertTrue(call("step", Step, 1).success)
         following = self.decisions.wait_for(
-            lambda decision: decision.cycle == answered.cycle + 1
-            and decision.header.stamp > last.header.stamp,
+            lambda decision: (
+                decision.cycle == answered.cycle + 1 and decision.header.stamp > last.header.stamp
+            ),
             "the next cycle",
         )
         self.assertAlmostEqual(self.offset_of(following), 0.11)

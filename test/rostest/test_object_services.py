@@ -78,8 +78,11 @@ class ObjectServicesTest(unittest.TestCase):
     def test_copies_are_replaced(self):
         wanted = [("leader", [0.02, 0.0, 0.0]), (AGENT, [0.0, 0.0, 0.05])]
         self.assert_success(
-            "set_perturbations", SetPerturbations,
-            ["leader", AGENT], [Vector3(0.02, 0.0, 0.0), UP], True,
+            "set_perturbations",
+            SetPerturbations,
+            ["leader", AGENT],
+            [Vector3(0.02, 0.0, 0.0), UP],
+            True,
         )
         self.wait_for(lambda state: copies(state) == wanted, "exactly the new copies")
 
@@ -163,7 +166,10 @@ class ObjectServicesTest(unittest.TestCase):
         keys = ["young_modulus", "torsion_modulus"]
         self.assert_success("set_material", SetMaterial, keys, [3.0e10, 1.0e10])
         self.addCleanup(
-            self.assert_success, "set_material", SetMaterial, keys,
+            self.assert_success,
+            "set_material",
+            SetMaterial,
+            keys,
             [rope.young_modulus, rope.torsion_modulus],
         )
         self.setUp()

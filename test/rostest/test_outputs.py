@@ -38,8 +38,12 @@ class OutputsTest(unittest.TestCase):
             for name in self.names
         }
         rope = self.scenario.object
-        weight = rope.density * math.pi * rope.radius**2 * rope.length * np.array(
-            self.scenario.simulation.gravity
+        weight = (
+            rope.density
+            * math.pi
+            * rope.radius**2
+            * rope.length
+            * np.array(self.scenario.simulation.gravity)
         )
         total = sum(vector(each.wrench.force) for each in wrenches.values())
         np.testing.assert_allclose(total, weight, 0.0, 1e-3 * np.linalg.norm(weight))
@@ -65,8 +69,10 @@ class OutputsTest(unittest.TestCase):
             frame = frames[PREFIX + name]
             self.assertEqual(frame.header.frame_id, self.scenario.frame)
             self.assert_pose(
-                self.state_of(frame.header.stamp), name,
-                vector(frame.transform.translation), frame.transform.rotation,
+                self.state_of(frame.header.stamp),
+                name,
+                vector(frame.transform.translation),
+                frame.transform.rotation,
             )
 
     def assert_pose(self, state, name, position, orientation):

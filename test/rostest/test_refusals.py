@@ -172,8 +172,13 @@ class RefusalsTest(unittest.TestCase):
             "'boss'",
             "leader:=leader",
             "'/nowhere/bags' \u2014 does not exist",
-            arguments=["assistants:=assistant_7", "lockstep:=true", "leader:=boss", "record:=true",
-                       "output:=/nowhere/bags"],
+            arguments=[
+                "assistants:=assistant_7",
+                "lockstep:=true",
+                "leader:=boss",
+                "record:=true",
+                "output:=/nowhere/bags",
+            ],
         )
 
     def test_a_lock_step_launch_without_one_of_its_assistants(self):

@@ -54,8 +54,9 @@ class ResetTest(unittest.TestCase):
         paused = self.latched_state()
         self.assertTrue(call("step", Step, 5).success)
         fifth = self.states.wait_for(
-            lambda state: state.header.stamp > paused.header.stamp
-            and state.cycle == paused.cycle + 5,
+            lambda state: (
+                state.header.stamp > paused.header.stamp and state.cycle == paused.cycle + 5
+            ),
             "the fifth cycle",
         )
         self.assertEqual(self.latched_state().header.stamp, fifth.header.stamp)

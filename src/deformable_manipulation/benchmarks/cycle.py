@@ -50,7 +50,11 @@ def measure_tables(request: Request) -> List[Table]:
 def _run(loop: ClosedLoop, cycles: int) -> Dict[str, List[float]]:
     """Seconds of each part in every cycle."""
     parts: Dict[str, List[float]] = {
-        "simulation": [], "distances": [], "controller": [], "solver": [], WHOLE: []
+        "simulation": [],
+        "distances": [],
+        "controller": [],
+        "solver": [],
+        WHOLE: [],
     }
     with no_garbage_collection():
         for _ in range(cycles):

@@ -32,8 +32,10 @@ TIMES = (
     Column("median_us", "median [µs]", ".1f"),
     Column("minimum_us", "minimum [µs]", ".1f"),
 )
-PLANAR_COLUMNS = (Column("what", "what is called"),) + TIMES + (
-    Column("distance", "lowest distance [m]", ".6f"),
+PLANAR_COLUMNS = (
+    (Column("what", "what is called"),)
+    + TIMES
+    + (Column("distance", "lowest distance [m]", ".6f"),)
 )
 MESH_COLUMNS = (Column("faces", "faces", "d"), Column("case", "fabric")) + PLANAR_COLUMNS
 BUILD_COLUMNS = (

@@ -63,9 +63,7 @@ def describe(summary: Dict[str, object]) -> str:
     lines: List[str] = ["{runs} runs, {not_completed} not completed".format(**summary)]
     for name, violation in summary["violations"].items():
         worst_of_all = _millimetres(violation["worst"])
-        lines.append(
-            f"{name + ' violated':22}{violation['runs']} runs, by {worst_of_all} at worst"
-        )
+        lines.append(f"{name + ' violated':22}{violation['runs']} runs, by {worst_of_all} at worst")
     lines.append(f"{'deadlocks':22}{summary['deadlocks']}")
     lines.append(
         f"{'programs relaxed':22}{summary['relaxed_programs']} in "

@@ -66,8 +66,11 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
     yield from _drag_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
-        yield Problem("leader", f"is not the scenario's leader; give leader:={leader}",
-                      f"'{arguments.leader}'")
+        yield Problem(
+            "leader",
+            f"is not the scenario's leader; give leader:={leader}",
+            f"'{arguments.leader}'",
+        )
     if arguments.output is not None:
         yield from _folder_problems(arguments.output)
 
@@ -111,8 +114,9 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
     if arguments.all_assistants and absent:
         yield Problem(
             "assistants",
-            "lacks {}, and a lock-step run waits for every assistant; give "
-            'assistants:="{}"'.format(", ".join(absent), " ".join(known)),
+            'lacks {}, and a lock-step run waits for every assistant; give assistants:="{}"'.format(
+                ", ".join(absent), " ".join(known)
+            ),
             f"'{' '.join(given)}'",
         )
 
@@ -132,8 +136,9 @@ def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> 
         if set(known) - set(arguments.assistants):
             yield Problem(
                 "assistants",
-                "must be all of a centralised scenario, or none; give "
-                'assistants:="{}"'.format(" ".join(known)),
+                'must be all of a centralised scenario, or none; give assistants:="{}"'.format(
+                    " ".join(known)
+                ),
                 f"'{' '.join(arguments.assistants)}'",
             )
 
@@ -153,5 +158,6 @@ def _folder_problems(folder: str) -> Iterator[Problem]:
     elif not os.path.isdir(folder):
         yield Problem("output", "is no folder; give one", f"'{folder}'")
     elif not os.access(folder, os.W_OK | os.X_OK):
-        yield Problem("output", "is a folder that you may not write to; give another",
-                      f"'{folder}'")
+        yield Problem(
+            "output", "is a folder that you may not write to; give another", f"'{folder}'"
+        )

@@ -75,9 +75,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="folder, made if it is not there (default: this one)",
     )
     origin = parser.add_mutually_exclusive_group()
-    origin.add_argument(
-        "--object", choices=KINDS, help=f"what is carried (default: {KINDS[0]})"
-    )
+    origin.add_argument("--object", choices=KINDS, help=f"what is carried (default: {KINDS[0]})")
     origin.add_argument(
         "--from",
         dest="source",

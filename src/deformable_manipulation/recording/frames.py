@@ -79,6 +79,4 @@ def _read_folder(folder: Path) -> Frames:
         scenario = load_scenario(folder / run_files.SCENARIO)
     except ScenarioError as error:
         raise RunDataError(str(error)) from error
-    return Frames(
-        scenario, times, points, agents, arrays.get("faces"), arrays.get("obstacles")
-    )
+    return Frames(scenario, times, points, agents, arrays.get("faces"), arrays.get("obstacles"))

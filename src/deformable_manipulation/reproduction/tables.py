@@ -61,9 +61,11 @@ def time_table(plan: Plan) -> Table:
 
 def campaign_table(plan: Plan) -> Table:
     """What every campaign counted."""
-    header = (
-        ("scenario", "formulation", "runs", "runs short of the offset", "by at most [mm]")
-        + ("runs overstretched", "by at most [mm]", "deadlocks", "programs failed")
+    header = ("scenario", "formulation", "runs", "runs short of the offset", "by at most [mm]") + (
+        "runs overstretched",
+        "by at most [mm]",
+        "deadlocks",
+        "programs failed",
     )
     rows = []
     for name, variant in plan.campaigns():

@@ -32,9 +32,7 @@ def stepped_run(scenario, directory):
     """
     # One observer, this process, so that the run does not start before it is paused. A process for
     # each thing that is drawn, for MarkerWatch knows only who draws.
-    command = launch_command(
-        scenario, directory, lockstep="true", observers=1, one_process="false"
-    )
+    command = launch_command(scenario, directory, lockstep="true", observers=1, one_process="false")
     with Program("the run", command, Path(directory) / "run.log") as program:
         yield SteppedRun(scenario, program)
 

@@ -59,8 +59,7 @@ class Team:
     def reports(self):
         """How the assistants fare, for publish_diagnostics."""
         return {
-            f"{name} quadratic program": monitor.report
-            for name, monitor in self._monitors.items()
+            f"{name} quadratic program": monitor.report for name, monitor in self._monitors.items()
         }
 
     def decide(self, state, observation, fault=""):

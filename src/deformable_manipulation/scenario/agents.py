@@ -49,9 +49,7 @@ def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
     _check_particles(node, drafts, spec)
     if spec is None:
         raise Unreadable
-    return tuple(
-        read_all(partial(_complete, name, draft, spec) for name, draft in drafts.items())
-    )
+    return tuple(read_all(partial(_complete, name, draft, spec) for name, draft in drafts.items()))
 
 
 def _read_draft(node: Node, name) -> Draft:

@@ -162,9 +162,7 @@ def _check_start_limits(report: Report, first, second, length: float, limits) ->
 def _report_start(report: Report, first: AgentSpec, second: AgentSpec, message: str) -> None:
     """Report at the one of the two that is not the leader: it is the one to move."""
     moved, other = (first, second) if second.role == LEADER else (second, first)
-    report.add(
-        ("agents", moved.name, "start"), message.format(other.name), show(list(moved.start))
-    )
+    report.add(("agents", moved.name, "start"), message.format(other.name), show(list(moved.start)))
 
 
 def check_workspace(report: Report, agents: Tuple[AgentSpec, ...], leader: LeaderSpec) -> None:

@@ -38,9 +38,8 @@ def package_share_directory() -> Path:
 
 def _is_this_package(directory: Path) -> bool:
     manifest = directory / "package.xml"
-    return (
-        manifest.is_file()
-        and "<name>{}</name>".format(PACKAGE) in manifest.read_text(encoding="utf-8")
+    return manifest.is_file() and "<name>{}</name>".format(PACKAGE) in manifest.read_text(
+        encoding="utf-8"
     )
 
 
@@ -63,7 +62,7 @@ def resolve_file(text: str, directory: Path) -> Path:
     """
     if not text.startswith(_PACKAGE_SCHEME):
         return directory / text
-    package, _, rest = text[len(_PACKAGE_SCHEME):].partition("/")
+    package, _, rest = text[len(_PACKAGE_SCHEME) :].partition("/")
     root = package_share_directory() if package == PACKAGE else _ros_package(package)
     if root is None:
         raise FileNotFoundError("there is no ROS package '{}'".format(package))

@@ -41,8 +41,11 @@ def _completed(given, defaults):
     """``given`` with the defaults for what it lacks, at every depth; no mapping: as it is."""
     if not (isinstance(given, dict) and isinstance(defaults, dict)):
         return given
-    known = {key: _completed(given.get(key, {}), value) for key, value in defaults.items()
-             if isinstance(value, dict)}
+    known = {
+        key: _completed(given.get(key, {}), value)
+        for key, value in defaults.items()
+        if isinstance(value, dict)
+    }
     return {**defaults, **given, **known}
 
 

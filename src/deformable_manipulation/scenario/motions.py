@@ -26,8 +26,10 @@ from deformable_manipulation.scenario.waypoints import TIME, check_times
 POSE_WAYPOINT = Section(
     PoseWaypoint, {"time": TIME, "position": position(), "orientation": UnitQuaternion()}
 )
-_TOPIC = Text(re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*"),
-              "a ROS topic: names of letters, digits and _ between /")
+_TOPIC = Text(
+    re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*"),
+    "a ROS topic: names of letters, digits and _ between /",
+)
 
 
 class _PoseWaypoints:

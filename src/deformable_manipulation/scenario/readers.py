@@ -253,9 +253,7 @@ class UnitQuaternion:
 def read_items(node: Node, reader) -> Tuple[Any, ...]:
     """The items of a list, read by one reader."""
     return tuple(
-        read_all(
-            partial(reader, node.child(index, item)) for index, item in enumerate(node.value)
-        )
+        read_all(partial(reader, node.child(index, item)) for index, item in enumerate(node.value))
     )
 
 

@@ -46,9 +46,7 @@ def test_a_copy_of_a_scenario_is_the_same_but_for_its_name(tmp_path, name):
     assert load_scenario(scenario) == dataclasses.replace(load_scenario(name), name="other")
     assert rviz.read_text() == (SHARE / "rviz" / f"{name}.rviz").read_text()
     comments = [line for line in scenario.read_text().splitlines() if line.startswith("#")]
-    assert comments and comments[0] in (
-        SHARE / "config" / "scenarios" / f"{name}.yaml"
-    ).read_text()
+    assert comments and comments[0] in (SHARE / "config" / "scenarios" / f"{name}.yaml").read_text()
 
 
 def test_a_copy_of_one_s_own_scenario_finds_its_files(tmp_path):

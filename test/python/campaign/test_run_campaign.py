@@ -140,8 +140,9 @@ def scheduler():
 
     started = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
     address = next(line.split()[-1] for line in started.stderr if "Scheduler at:" in line).strip()
-    yield address, lambda: start(
-        "dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"
+    yield (
+        address,
+        lambda: start("dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"),
     )
     for process in processes:
         process.kill()

@@ -21,7 +21,14 @@ class Run:
     """
 
     def __init__(
-        self, scenario, duration, obstacle=GROUND, sag=0.55, body=None, late=0, told=True,
+        self,
+        scenario,
+        duration,
+        obstacle=GROUND,
+        sag=0.55,
+        body=None,
+        late=0,
+        told=True,
         **settings,
     ):
         controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]

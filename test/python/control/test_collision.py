@@ -48,7 +48,13 @@ def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
     everybody = list(range(1, assistants + 1))
     return [
         CollisionBarrier(
-            [i], everybody, OFFSET, SLOPES, band=band, margin=margin, speed_margin=speed_margin,
+            [i],
+            everybody,
+            OFFSET,
+            SLOPES,
+            band=band,
+            margin=margin,
+            speed_margin=speed_margin,
             formulation=formulation(**settings),
         )
         for i in everybody

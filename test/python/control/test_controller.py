@@ -101,8 +101,18 @@ def test_disabled_sends_zero_and_still_measures(scenario):
 @pytest.mark.parametrize("safety", [True, False])
 @pytest.mark.parametrize(
     "field",
-    ["time", "lateness", "positions", "points", "displacements", "distances.minimum",
-     "distances.distance", "distances.normal", "distances.weights", "distances.obstacle_velocity"],
+    [
+        "time",
+        "lateness",
+        "positions",
+        "points",
+        "displacements",
+        "distances.minimum",
+        "distances.distance",
+        "distances.normal",
+        "distances.weights",
+        "distances.obstacle_velocity",
+    ],
 )
 def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, value, safety):
     controller = AssistantController(scenario, "assistant_1", safety=safety)
@@ -128,8 +138,12 @@ def broken(observation, field, value):
 
 @pytest.mark.parametrize(
     "field, value",
-    [("positions", np.zeros((3, 3))), ("points", np.zeros((0, 2, 3))), ("ready", np.ones(2)),
-     ("displaced_agents", np.full(4, 7))],
+    [
+        ("positions", np.zeros((3, 3))),
+        ("points", np.zeros((0, 2, 3))),
+        ("ready", np.ones(2)),
+        ("displaced_agents", np.full(4, 7)),
+    ],
 )
 def test_waits_for_input_of_the_right_shape(scenario, field, value):
     observation = dataclasses.replace(observed(scenario), **{field: value})
@@ -265,8 +279,12 @@ def test_the_single_row_of_the_paper():
 def papers(**settings):
     collision = CollisionSpec(offset=0.05, margin=0.0, gradient="minimum")
     return build.scenario(
-        formulation="paper", differences="forward", feedforward=False, collision=collision,
-        overstretch=OverstretchSpec(2.0, margin=0.0), **settings,
+        formulation="paper",
+        differences="forward",
+        feedforward=False,
+        collision=collision,
+        overstretch=OverstretchSpec(2.0, margin=0.0),
+        **settings,
     )
 
 
@@ -317,7 +335,13 @@ def test_unknown_agents_are_refused(scenario):
 
 def test_statuses_are_those_of_the_message_and_have_a_sentence():
     assert [status.name for status in sorted(Status)] == [
-        "NOMINAL", "CONSTRAINED", "RELAXED", "FAILED", "WAITING", "DISABLED", "UNSAFE_FILTER_OFF"
+        "NOMINAL",
+        "CONSTRAINED",
+        "RELAXED",
+        "FAILED",
+        "WAITING",
+        "DISABLED",
+        "UNSAFE_FILTER_OFF",
     ]
     assert len({status.sentence for status in Status}) == len(Status)
 

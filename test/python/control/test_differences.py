@@ -57,9 +57,7 @@ def test_a_feature_between_two_points_takes_its_material_point(setting):
         vertices=np.tile((1, 4, 0), (len(observation.distances.distance), 1)),
         weights=np.tile((0.25, 0.75, 0.0), (len(observation.distances.distance), 1)),
     )
-    features = taken_in(observation).features(
-        dataclasses.replace(observation, distances=distances)
-    )
+    features = taken_in(observation).features(dataclasses.replace(observation, distances=distances))
     rate = 0.25 * body.sensitivities[:, 1] + 0.75 * body.sensitivities[:, 4]
     np.testing.assert_allclose(features.gradients[0], np.einsum("i,aij->aj", obstacle.normal, rate))
 

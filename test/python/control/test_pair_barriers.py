@@ -146,9 +146,7 @@ def test_a_row_of_two_commanded_together_is_the_whole_constraint(kind, commanded
     alpha = PiecewiseLinearClassK(*SLOPES)
     step, wanted = 1e-6, []
     for i, j in ((0, 1), (0, 2), (1, 2)):
-        ends = [
-            barrier.value(positions + sign * step * velocities, i, j) for sign in (-1.0, 1.0)
-        ]
+        ends = [barrier.value(positions + sign * step * velocities, i, j) for sign in (-1.0, 1.0)]
         rate = (ends[1] - ends[0]) / (2.0 * step)
         wanted.append(rate + alpha(barrier.value(positions, i, j)))
     np.testing.assert_allclose(sorted(found), sorted(wanted), atol=1e-7)

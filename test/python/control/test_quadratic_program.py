@@ -65,8 +65,10 @@ def least_violation(A, b):
     lengths = np.linalg.norm(A, axis=1)
     if (b[lengths == 0.0] > 0.0).any():
         return np.inf
-    A, b = (part[lengths > 0.0] / lengths[lengths > 0.0, None].reshape(-1, *[1] * (part.ndim - 1))
-            for part in (A, b))
+    A, b = (
+        part[lengths > 0.0] / lengths[lengths > 0.0, None].reshape(-1, *[1] * (part.ndim - 1))
+        for part in (A, b)
+    )
     bounds = [(None, None)] * A.shape[1] + [(0.0, None)]
     cost = np.append(np.zeros(A.shape[1]), 1.0)
     return linprog(cost, A_ub=-np.column_stack((A, np.ones(len(b)))), b_ub=-b, bounds=bounds).fun

@@ -29,9 +29,7 @@ STARTS = {
     "in the ground": dict(depth=OFFSET + 0.04),
     "overstretched": dict(overstretch=OverstretchSpec(1.45)),
     "too near": dict(proximity=ProximitySpec(1.53)),
-    "in the ground and overstretched": dict(
-        depth=OFFSET + 0.04, overstretch=OverstretchSpec(1.45)
-    ),
+    "in the ground and overstretched": dict(depth=OFFSET + 0.04, overstretch=OverstretchSpec(1.45)),
     "in the ground and too near": dict(depth=OFFSET + 0.04, proximity=ProximitySpec(1.53)),
 }
 
@@ -83,15 +81,24 @@ def test_two_assistants_come_back_and_stay(cooperation, where):
 def test_centralised_frees_the_one_in_the_middle_at_once():
     """Decentralised it has to wait until the outer one, with half the demand, has made way."""
     settings = dict(assistants=2, proximity=ProximitySpec(0.78), duration=3.0)
-    left = {mode: shortfall(start(cooperation=mode, **settings), "proximity")[-1]
-            for mode in (DECENTRALISED, CENTRALISED)}
+    left = {
+        mode: shortfall(start(cooperation=mode, **settings), "proximity")[-1]
+        for mode in (DECENTRALISED, CENTRALISED)
+    }
     assert left[CENTRALISED] < 0.001 < 0.005 < left[DECENTRALISED] < 0.01
 
 
-@pytest.mark.parametrize("cooperation, most, left", [
-    (DECENTRALISED, 0.034, 0.007),  # those in the middle are pushed on before the last one is away
-    (CENTRALISED, 0.03, 1e-5),
-])
+@pytest.mark.parametrize(
+    "cooperation, most, left",
+    [
+        (
+            DECENTRALISED,
+            0.034,
+            0.007,
+        ),  # those in the middle are pushed on before the last one is away
+        (CENTRALISED, 0.03, 1e-5),
+    ],
+)
 def test_a_row_of_three_that_are_all_too_near_to_one_another_opens(cooperation, most, left):
     """The rows of those in the middle contradict, all out of reach in a cycle: none may freeze."""
     run = start(3, cooperation=cooperation, proximity=ProximitySpec(0.53), duration=10.0)
@@ -129,7 +136,9 @@ def test_a_start_that_contradicts_is_mended_by_priority():
     wall = build.HalfSpace((0.0, -1.0, 0.0), -1.52)  # beyond y = 1.52
     for first, second in (("collision", "proximity"), ("proximity", "collision")):
         scenario = build.scenario(
-            1, priority=(first, second, "overstretch"), proximity=ProximitySpec(1.53),
+            1,
+            priority=(first, second, "overstretch"),
+            proximity=ProximitySpec(1.53),
             collision=CollisionSpec(offset=OFFSET),
         )
         run = Run(scenario, 4.0, wall, SAG)

@@ -50,8 +50,11 @@ class SafetyFilter:
 
 
 def rows(tier, coefficients, bounds):
-    return Rows(tier, np.atleast_2d(np.array(coefficients, dtype=float)),
-                np.atleast_1d(np.array(bounds, dtype=float)))
+    return Rows(
+        tier,
+        np.atleast_2d(np.array(coefficients, dtype=float)),
+        np.atleast_1d(np.array(bounds, dtype=float)),
+    )
 
 
 def random_problem(generator, spread):
@@ -66,8 +69,10 @@ def random_problem(generator, spread):
 
 
 def stacked(parts):
-    return (np.concatenate([part.coefficients for part in parts]),
-            np.concatenate([part.bounds for part in parts]))
+    return (
+        np.concatenate([part.coefficients for part in parts]),
+        np.concatenate([part.bounds for part in parts]),
+    )
 
 
 def by_enumeration(weights, nominal, A, b):
@@ -174,8 +179,12 @@ def test_badly_scaled_rows_and_far_nominal_velocities_are_solved(weights, scale)
     for _ in range(100):
         nominal, parts = random_problem(generator, 0.25)
         parts = [
-            Rows(p.tier, p.coefficients * 10.0 ** generator.uniform(-5, 1, (len(p.bounds), 1)),
-                 p.bounds) for p in parts
+            Rows(
+                p.tier,
+                p.coefficients * 10.0 ** generator.uniform(-5, 1, (len(p.bounds), 1)),
+                p.bounds,
+            )
+            for p in parts
         ]
         centre = generator.uniform(-0.14, 0.14, 3)
         result = safety.filter(scale * nominal, parts, centre - 0.01, centre + 0.01)
@@ -229,8 +238,12 @@ def test_the_priority_is_the_users(priority):
 
 @pytest.mark.parametrize(
     "priority",
-    [["collision", "overstretch"], ["collision"] * 3, ["collision", "proximity", "anticipation"],
-     ["collision", "overstretch", "speed"]],
+    [
+        ["collision", "overstretch"],
+        ["collision"] * 3,
+        ["collision", "proximity", "anticipation"],
+        ["collision", "overstretch", "speed"],
+    ],
 )
 def test_a_priority_is_an_order_of_the_limits(priority):
     with pytest.raises(ValueError, match="priority|speed"):

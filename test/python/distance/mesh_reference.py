@@ -4,11 +4,27 @@ import numpy as np
 
 from deformable_manipulation import _distance
 
-FIELDS = ("minimum offsets distance obstacle object_point obstacle_point normal vertices weights"
-          " obstacle_velocity identity").split()
+FIELDS = (
+    "minimum offsets distance obstacle object_point obstacle_point normal vertices weights"
+    " obstacle_velocity identity"
+).split()
 CUBE_VERTICES = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-CUBE = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
-                 (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)])
+CUBE = np.array(
+    [
+        (0, 1, 3),
+        (0, 3, 2),
+        (4, 6, 7),
+        (4, 7, 5),
+        (0, 4, 5),
+        (0, 5, 1),
+        (2, 3, 7),
+        (2, 7, 6),
+        (0, 2, 6),
+        (0, 6, 4),
+        (1, 5, 7),
+        (1, 7, 3),
+    ]
+)
 
 
 def cube(low=(0.0, 0.0, 0.0), high=(1.0, 1.0, 1.0)):
@@ -19,8 +35,10 @@ def cube(low=(0.0, 0.0, 0.0), high=(1.0, 1.0, 1.0)):
 def joined(*meshes):
     """Several meshes as one."""
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
-    return (np.concatenate([vertices for vertices, _ in meshes]),
-            np.concatenate([triangles + n for (_, triangles), n in zip(meshes, starts)]))
+    return (
+        np.concatenate([vertices for vertices, _ in meshes]),
+        np.concatenate([triangles + n for (_, triangles), n in zip(meshes, starts)]),
+    )
 
 
 def star(rng, rings=5, sectors=7):
@@ -57,8 +75,12 @@ def sheet(rng, cells=3, size=1.0, waves=0.2, middle=(0.0, 0.0, 0.0)):
 def grid_triangles(cells):
     corner = np.arange(cells * (cells + 1)).reshape(cells, cells + 1)[:, :-1].ravel()
     down = corner + cells + 1
-    return np.concatenate((np.stack((corner, down, corner + 1), axis=1),
-                           np.stack((corner + 1, down, down + 1), axis=1)))
+    return np.concatenate(
+        (
+            np.stack((corner, down, corner + 1), axis=1),
+            np.stack((corner + 1, down, down + 1), axis=1),
+        )
+    )
 
 
 def compute(mesh, points, triangles=None, band=0.3, features="elements", margin=0.0, pose=()):
@@ -111,8 +133,10 @@ def signed_distances(mesh, points):
 
 def element_bounds(mesh, points, elements, count=10):
     """Between which two values (E, 2) [m] each element's least signed distance is."""
-    weights = np.array([(i, j, count - i - j) for i in range(count + 1)
-                        for j in range(count + 1 - i)]) / count
+    weights = (
+        np.array([(i, j, count - i - j) for i in range(count + 1) for j in range(count + 1 - i)])
+        / count
+    )
     corners = points[elements]
     samples = np.einsum("kw,ewd->ekd", weights, corners)
     distances = signed_distances(mesh, samples.reshape(-1, 3)).reshape(len(elements), -1)

@@ -7,10 +7,29 @@ from deformable_manipulation.scenario.spec import PolygonObstacle
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 # Two hills, one metre apart, on a block: concave between them.
-HILLS = ((-2.0, -1.0), (2.0, -1.0), (2.0, 0.0), (1.0, 0.0), (0.5, 0.5), (0.0, 0.0), (-0.5, 0.5),
-         (-1.0, 0.0), (-2.0, 0.0))
-COMB = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.8, 1.0), (0.8, 0.2), (0.6, 0.2), (0.6, 1.0),
-        (0.4, 1.0), (0.4, 0.5), (0.0, 0.5))
+HILLS = (
+    (-2.0, -1.0),
+    (2.0, -1.0),
+    (2.0, 0.0),
+    (1.0, 0.0),
+    (0.5, 0.5),
+    (0.0, 0.0),
+    (-0.5, 0.5),
+    (-1.0, 0.0),
+    (-2.0, 0.0),
+)
+COMB = (
+    (0.0, 0.0),
+    (1.0, 0.0),
+    (1.0, 1.0),
+    (0.8, 1.0),
+    (0.8, 0.2),
+    (0.6, 0.2),
+    (0.6, 1.0),
+    (0.4, 1.0),
+    (0.4, 0.5),
+    (0.0, 0.5),
+)
 
 
 def star(rng):
@@ -20,8 +39,10 @@ def star(rng):
     radii = rng.uniform(0.3, 1.5, count) if rng.random() < 0.7 else np.ones(count)
     return radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
 
-def obstacle(ring, plane="xy", translation=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0),
-             name="obstacle"):
+
+def obstacle(
+    ring, plane="xy", translation=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0), name="obstacle"
+):
     return PolygonObstacle(name, tuple(map(tuple, ring)), plane, translation, rotation)
 
 

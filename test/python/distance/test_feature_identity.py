@@ -54,10 +54,13 @@ def test_a_rope_along_an_edge_has_a_number_per_segment():
 
 def test_a_fabric_over_the_corners_of_a_cube():
     """Four minima that keep apart, while the fabric slides over them and tilts."""
-    pillars = reference.joined(*(
-        reference.cube((x, y, 0.0), (x + 0.02, y + 0.02, 1.0))
-        for x in (0.1, 0.9) for y in (0.15, 0.8)
-    ))
+    pillars = reference.joined(
+        *(
+            reference.cube((x, y, 0.0), (x + 0.02, y + 0.02, 1.0))
+            for x in (0.1, 0.9)
+            for y in (0.15, 0.8)
+        )
+    )
     x, y = np.meshgrid(*2 * [np.linspace(-0.6, 1.6, 12)], indexing="ij")
     height = np.full_like(x, 1.2)
     for cx in (0.11, 0.91):

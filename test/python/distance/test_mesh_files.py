@@ -78,9 +78,12 @@ def test_scale_of_an_obstacle(write):
         (OBJ.replace("v 1 0 0", "v nan 0 0"), "mesh.obj", "vertex 1"),
         (OBJ.replace("v 1 0 0", "v 2e6 0 0"), "mesh.obj", r"vertex 1 is \(2e\+06, 0, 0\)"),
         (OBJ.replace("f 1 2 3", "f 1 2 99"), "mesh.obj", "no mesh|vertex that there is not"),
-        ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-         "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n", "cloud.ply",
-         "no triangles|no mesh"),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n",
+            "cloud.ply",
+            "no triangles|no mesh",
+        ),
     ],
 )
 def test_files_that_are_no_mesh(write, content, name, reason):

@@ -122,8 +122,11 @@ def test_a_moebius_strip_has_no_sign():
     rows = []
     for side in (-0.2, 0.2):
         radius = 1.0 + side * np.cos(angles / 2.0)
-        rows.append(np.column_stack((radius * np.cos(angles), radius * np.sin(angles),
-                                     side * np.sin(angles / 2.0))))
+        rows.append(
+            np.column_stack(
+                (radius * np.cos(angles), radius * np.sin(angles), side * np.sin(angles / 2.0))
+            )
+        )
     triangles = []
     for i in range(20):
         a, b = i, 20 + i

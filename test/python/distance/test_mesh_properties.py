@@ -103,9 +103,7 @@ def test_results_do_not_depend_on_the_way_there(seed, step):
         pose = step * rng.normal(size=3), Rotation.from_rotvec(step * rng.normal(size=3)).as_quat()
         obstacle.set_pose(*pose)
         found = fields(used, copies, triangles)
-    fresh = _distance.MinimumDistance(
-        [_distance.MeshObstacle(*mesh, *pose)], 0.0, BAND, "elements"
-    )
+    fresh = _distance.MinimumDistance([_distance.MeshObstacle(*mesh, *pose)], 0.0, BAND, "elements")
     alone = fields(fresh, copies, triangles)
     for name in reference.FIELDS[:-1]:
         np.testing.assert_array_equal(found[name], alone[name], err_msg=name)

@@ -105,8 +105,9 @@ def test_a_segment_over_two_equal_hills_is_not_represented_by_the_valley():
     assert abs(result.object_point[0, 0]) == pytest.approx(0.5, abs=1e-9)
 
 
-@pytest.mark.parametrize("line", [[(-0.5, 1.3), (0.2, 1.2), (1.8, 0.9)],
-                                  [(0.3, 0.9), (0.35, 0.75), (0.9, 1.4)]])
+@pytest.mark.parametrize(
+    "line", [[(-0.5, 1.3), (0.2, 1.2), (1.8, 0.9)], [(0.3, 0.9), (0.35, 0.75), (0.9, 1.4)]]
+)
 @pytest.mark.parametrize("features", ["local", "elements"])
 def test_witness_points(line, features):
     result = compute(SQUARE, line, radius=0.02, band=0.5, features=features)

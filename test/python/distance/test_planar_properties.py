@@ -27,8 +27,7 @@ selections = st.sampled_from(["local", "elements"])
 
 
 def random_ring(rng):
-    """Convex or not, of either orientation; some on a grid, as some lines are, so that they touch.
-    """
+    """Convex or not, of either orientation; some on a grid, as some lines are, so that they touch."""
     if rng.random() < 0.3:
         ring = np.array((SQUARE, HILLS, COMB)[rng.integers(3)])
     else:
@@ -138,9 +137,7 @@ def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies
         if copy:
             assert together.offsets[copy + 1] - together.offsets[copy] == 1
         else:
-            assert together.distance[together.of_copy(0)] == pytest.approx(
-                alone.distance, abs=1e-9
-            )
+            assert together.distance[together.of_copy(0)] == pytest.approx(alone.distance, abs=1e-9)
 
 
 @MANY

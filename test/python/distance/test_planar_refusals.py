@@ -37,8 +37,14 @@ def test_all_mistakes_are_reported_at_once():
     with pytest.raises(ValueError) as caught:
         MinimumDistance(spoilt, -1.0, band=np.nan, features="all")
     message = str(caught.value)
-    for part in ("margin is -1.0", "band is nan", "'local', 'elements'", "'first'", "plane is 'up'",
-                 "translation"):
+    for part in (
+        "margin is -1.0",
+        "band is nan",
+        "'local', 'elements'",
+        "'first'",
+        "plane is 'up'",
+        "translation",
+    ):
         assert part in message
 
 

@@ -21,8 +21,10 @@ def surface_distances(ring, points, triangles, features="elements", band=0.2):
         [_distance.PlanarObstacle(ring, "xy")], 0.0, band, features
     )
     lifted = np.column_stack((points, np.linspace(-1.0, 1.0, len(points))))
-    names = ("minimum offsets distance obstacle object_point obstacle_point normal vertices weights"
-             " obstacle_velocity identity").split()
+    names = (
+        "minimum offsets distance obstacle object_point obstacle_point normal vertices weights"
+        " obstacle_velocity identity"
+    ).split()
     return dict(zip(names, calculator.compute(lifted[None], triangles)))
 
 

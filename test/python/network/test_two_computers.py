@@ -118,17 +118,35 @@ def test_the_assistant_stops_when_the_link_is_cut_and_resumes(monkeypatch, tmp_p
     log = StateLog()
     with two_computers(DELAY, LOSS) as wire:
         world = Launch(
-            ["--port", str(port), "deformable_manipulation", "rope_one_assistant.launch",
-             "rviz:=false", "assistants:=none", f"set:={SCENARIO_CHANGES}"],
-            HERE, port, tmp_path / "world.log",
+            [
+                "--port",
+                str(port),
+                "deformable_manipulation",
+                "rope_one_assistant.launch",
+                "rviz:=false",
+                "assistants:=none",
+                f"set:={SCENARIO_CHANGES}",
+            ],
+            HERE,
+            port,
+            tmp_path / "world.log",
         )
         other = None
         try:
             _await_master(port)
             other = Launch(
-                ["--wait", "deformable_manipulation", "agent.launch", "agent:=assistant_1",
-                 "scenario:=rope_one_assistant", f"set:={SCENARIO_CHANGES}"],
-                THERE, port, tmp_path / "agent.log", prefix=("ip", "netns", "exec", "dm_other"),
+                [
+                    "--wait",
+                    "deformable_manipulation",
+                    "agent.launch",
+                    "agent:=assistant_1",
+                    "scenario:=rope_one_assistant",
+                    f"set:={SCENARIO_CHANGES}",
+                ],
+                THERE,
+                port,
+                tmp_path / "agent.log",
+                prefix=("ip", "netns", "exec", "dm_other"),
             )
             _watch(log)
             log.wait(lambda: log.velocities[-1] > 0.02, "the assistant follows")

@@ -40,9 +40,7 @@ def write_bag(path, scenario, cycles, reset_count=0, info="/run_info"):
                 # In another order than the scenario's.
                 agents = dict(reversed(list(zip(names, record.positions + run))))
                 writer.object_state(cycle, record.points, agents, reset_count=run)
-                writer.distances(
-                    cycle, reset_count=run, obstacle_poses=record.obstacles + run
-                )
+                writer.distances(cycle, reset_count=run, obstacle_poses=record.obstacles + run)
                 writer.controller_state(cycle, reset_count=run)
 
 

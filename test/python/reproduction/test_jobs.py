@@ -24,7 +24,9 @@ def test_all_jobs_are_run_and_told(tmp_path):
     jobs = [job(tmp_path, name, f"print('{name}')") for name in ("one", "two", "three")]
     run_jobs(jobs, 2, display(3, stream))
     assert [(tmp_path / f"{each.title}.log").read_text() for each in jobs] == [
-        "one\n", "two\n", "three\n"
+        "one\n",
+        "two\n",
+        "three\n",
     ]
     told = [line.split(":")[1] for line in stream.getvalue().splitlines()]
     assert told == [" 1 of 3", " 2 of 3", " 3 of 3"]

@@ -47,8 +47,9 @@ def computed(scenario, simulation):
 @pytest.fixture
 def state(simulation):
     """The simulation's state with its agents in the message's order, not yet sent."""
-    displaced = [MESSAGE_ORDER.index(FILE_ORDER[i]) if i >= 0 else -1
-                 for i in simulation.displaced_agents()]
+    displaced = [
+        MESSAGE_ORDER.index(FILE_ORDER[i]) if i >= 0 else -1 for i in simulation.displaced_agents()
+    ]
     points = simulation.points()
     return state_message(
         stamp=12.5,
@@ -99,9 +100,7 @@ def test_measured_velocities_come_in_the_scenario_s_order(state, distances, scen
         conversions.to_observation(transmitted(state), transmitted(distances), scenario)
 
 
-@pytest.mark.parametrize(
-    "cycles, late", [(-3.5, 0), (0.0, 0), (0.95, 0), (1.05, 1), (2.95, 2)]
-)
+@pytest.mark.parametrize("cycles, late", [(-3.5, 0), (0.0, 0), (0.95, 0), (1.05, 1), (2.95, 2)])
 def test_a_state_s_age_tells_by_how_many_cycles_its_answer_is_late(
     state, distances, scenario, cycles, late
 ):
@@ -192,9 +191,7 @@ def test_the_velocities_of_obstacles_are_sent_where_one_moves(state, computed):
     velocity = np.arange(3.0 * len(computed.distance)).reshape(-1, 3)
     moved = dataclasses.replace(computed, obstacle_velocity=velocity)
     pose = np.arange(7.0)[None]
-    message = conversions.fill_distances(
-        distances_message(), state, moved, 0.0, ["ground"], pose
-    )
+    message = conversions.fill_distances(distances_message(), state, moved, 0.0, ["ground"], pose)
     received = transmitted(message)
     assert (received.moving_obstacles, list(received.obstacle_poses)) == (["ground"], list(pose[0]))
     np.testing.assert_array_equal(conversions.to_distances(received).obstacle_velocity, velocity)
@@ -219,9 +216,7 @@ def test_distances_that_are_unusable_say_so(state, scenario):
 
 def test_a_decision_as_a_message(state, scenario):
     decision = ClosedLoop(scenario).step().decisions["end_assistant"]
-    message = conversions.fill_controller_state(
-        ControllerState(), state, "end_assistant", decision
-    )
+    message = conversions.fill_controller_state(ControllerState(), state, "end_assistant", decision)
     received = transmitted(message)
     assert received.header == state.header
     assert (received.cycle, received.reset_count) == (150, 2)
@@ -237,8 +232,17 @@ def test_a_decision_as_a_message(state, scenario):
     ):
         assert [getattr(received, f"{name}_{axis}") for axis in "xyz"] == vector.tolist(), name
     for name in (
-        "error_norm", "distance", "h_collision", "h_overstretch", "h_proximity", "leader_drift",
-        "rows", "slack_collision", "slack_overstretch", "slack_proximity", "solve_time",
+        "error_norm",
+        "distance",
+        "h_collision",
+        "h_overstretch",
+        "h_proximity",
+        "leader_drift",
+        "rows",
+        "slack_collision",
+        "slack_overstretch",
+        "slack_proximity",
+        "solve_time",
         "computation_time",
     ):
         value = getattr(decision, name)

@@ -59,9 +59,7 @@ def test_late(cycles, clock):
     answer(cycles, clock, 99, seconds=0.99)
     answer(cycles, clock, 1, latency=0.011, seconds=0.01)
     report = cycles.report()
-    assert (report.level, report.text) == (
-        Level.WARN, "1 of 100 answers came later than a cycle."
-    )
+    assert (report.level, report.text) == (Level.WARN, "1 of 100 answers came later than a cycle.")
     answer(cycles, clock, 100, latency=0.02)
     report = cycles.report()
     assert report.level is Level.ERROR
@@ -83,7 +81,8 @@ def test_a_state_that_cannot_be_answered(cycles):
     cycles.failed("State 3 cannot be used: agents: without leader.")
     report = cycles.report()
     assert (report.level, report.text) == (
-        Level.ERROR, "State 3 cannot be used: agents: without leader."
+        Level.ERROR,
+        "State 3 cannot be used: agents: without leader.",
     )
     assert cycles.report().level is Level.STALE
 

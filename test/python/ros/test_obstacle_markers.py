@@ -68,9 +68,7 @@ def test_a_small_mesh_is_drawn_where_it_is():
 
 
 def test_a_large_mesh_is_left_to_rviz(monkeypatch):
-    monkeypatch.setattr(
-        "deformable_manipulation.ros.obstacle_markers._MOST_TRIANGLES", 11
-    )
+    monkeypatch.setattr("deformable_manipulation.ros.obstacle_markers._MOST_TRIANGLES", 11)
     (marker,) = obstacle_markers([CUBE], "map").markers
     assert marker.type == Marker.MESH_RESOURCE and not marker.points
     assert marker.mesh_resource == "file://" + CUBE.mesh

@@ -21,9 +21,7 @@ def keep_environment(monkeypatch):
 def choose(monkeypatch, *ports):
     """The ports that are taken for free, one after the other; later ones are."""
     left, free_port = list(ports), private_master._free_port
-    monkeypatch.setattr(
-        private_master, "_free_port", lambda: left.pop(0) if left else free_port()
-    )
+    monkeypatch.setattr(private_master, "_free_port", lambda: left.pop(0) if left else free_port())
 
 
 @contextlib.contextmanager

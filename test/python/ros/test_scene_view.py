@@ -54,8 +54,9 @@ def test_obstacles_in_another_plane_are_seen_from_its_side(original):
     places = in_picture(view, np.array([[19.0, 0.0, 3.0], [22.0, 0.0, 3.0]]))
     assert places[0, 0] < 0.0 < places[1, 0]  # +x to the right
     assert np.abs(in_picture(view, corners())).max() < 0.9
-    (grid,) = [each for each in result["Visualization Manager"]["Displays"]
-               if each["Class"] == "rviz/Grid"]
+    (grid,) = [
+        each for each in result["Visualization Manager"]["Displays"] if each["Class"] == "rviz/Grid"
+    ]
     assert grid["Plane"] == "XZ" and grid["Offset"]["Y"] > BOUNDS[:, 1].mean()
 
 

@@ -18,10 +18,15 @@ def test_correct_file(path, capsys):
     assert main([str(path)]) == 0
     output = capsys.readouterr()
     assert output.out.startswith("{}: correct\n".format(path))
-    for part in ("rod of 2 m", "helper: assistant, holds particle 9", "0.18 to 1.782 m",
-                 "block: polygon of 4 points", "250 cycles at 50 Hz",
-                 "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; in all "
-                 "0.6283 kg, bending stiffness 0.07854 N m^2"):
+    for part in (
+        "rod of 2 m",
+        "helper: assistant, holds particle 9",
+        "0.18 to 1.782 m",
+        "block: polygon of 4 points",
+        "250 cycles at 50 Hz",
+        "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; in all "
+        "0.6283 kg, bending stiffness 0.07854 N m^2",
+    ):
         assert part in output.out
     assert output.err == ""
 
@@ -44,9 +49,7 @@ def test_material_of_a_fabric(fabric_mapping, tmp_path, capsys):
     path = tmp_path / "small.yaml"
     path.write_text(yaml.safe_dump(fabric_mapping))
     assert main([str(path), "--set", "object.stretching_compliance=0"]) == 0
-    expected = (
-        "0.5 kg/m^2, thickness 0.002 m, stiffness to stretching rigid, to bending 0.0001 N m"
-    )
+    expected = "0.5 kg/m^2, thickness 0.002 m, stiffness to stretching rigid, to bending 0.0001 N m"
     assert expected in capsys.readouterr().out
 
 
@@ -57,8 +60,14 @@ def test_resolved_is_yaml_alone_and_means_the_same(path, capsys):
 
 
 def test_set(path, capsys):
-    arguments = [str(path), "--resolved", "--set", "controller.gain=2",
-                 "--set", "leader.waypoints.1.position=[0, 0, 0.5]"]
+    arguments = [
+        str(path),
+        "--resolved",
+        "--set",
+        "controller.gain=2",
+        "--set",
+        "leader.waypoints.1.position=[0, 0, 0.5]",
+    ]
     assert main(arguments) == 0
     mapping = yaml.safe_load(capsys.readouterr().out)
     assert mapping["controller"]["gain"] == 2.0
@@ -75,8 +84,9 @@ def test_mistakes_go_to_stderr(path, capsys, options):
     assert "controller.gain: -1 \u2014 must be a number > 0 [1/s]" in output.err
 
 
-@pytest.mark.parametrize("arguments", [[], ["a", "b"], ["a", "--set", "gain"], ["a", "--wrong"],
-                                       ["a", "--set", "=1"]])
+@pytest.mark.parametrize(
+    "arguments", [[], ["a", "b"], ["a", "--set", "gain"], ["a", "--wrong"], ["a", "--set", "=1"]]
+)
 def test_wrong_usage(arguments, capsys):
     with pytest.raises(SystemExit) as caught:
         main(arguments)
@@ -140,8 +150,10 @@ def test_a_launch_s_own_arguments(path, capsys, tmp_path):
         (["--one-process", "maybe"], "one_process: 'maybe' \u2014 allowed: true or false"),
         (["--leader-input", "mouse"], "allowed: waypoints or hand"),
         (["--drag-obstacles", "true"], "no obstacle has motion.topic"),
-        (["--one-process", "false", "--set", "controller.cooperation=centralised"],
-         "leave out one_process:=false"),
+        (
+            ["--one-process", "false", "--set", "controller.cooperation=centralised"],
+            "leave out one_process:=false",
+        ),
         (["--leader", "helper"], "leader:=hand"),
         (["--output", "/nowhere"], "'/nowhere' \u2014 does not exist"),
         (["--output", "/dev/null"], "is no folder"),

@@ -50,23 +50,29 @@ def test_diagonals_alternate(columns, rows):
     mesh = grid_mesh((1.0, 1.0), (columns, rows))
     step = columns + 1
     edges = {side for triangle in mesh.triangles for side in sides(triangle)}
-    rising = {(row, column)
-              for row in range(rows) for column in range(columns)
-              if (row * step + column, (row + 1) * step + column + 1) in edges}
-    assert rising == {(row, column)
-                      for row in range(rows) for column in range(columns)
-                      if (row + column) % 2 == 0}
+    rising = {
+        (row, column)
+        for row in range(rows)
+        for column in range(columns)
+        if (row * step + column, (row + 1) * step + column + 1) in edges
+    }
+    assert rising == {
+        (row, column) for row in range(rows) for column in range(columns) if (row + column) % 2 == 0
+    }
 
 
-@pytest.mark.parametrize(
-    "size, nearest", [(2.1, "2 or 2.14285714"), (0.05, "0.142857143")]
-)
+@pytest.mark.parametrize("size, nearest", [(2.1, "2 or 2.14285714"), (0.05, "0.142857143")])
 def test_sizes_of_no_whole_number_of_cells(fabric_mapping, change, problems_of, size, nearest):
-    found = problems_of(change(fabric_mapping, "object", dict(
-        fabric_mapping["object"], size=[size, 2.0], resolution=7)))
+    found = problems_of(
+        change(
+            fabric_mapping, "object", dict(fabric_mapping["object"], size=[size, 2.0], resolution=7)
+        )
+    )
     assert list(found) == ["object.size.0"]
-    assert "cells of 1 / resolution = 0.142857 m; nearest: {}".format(nearest) in found[
-        "object.size.0"]
+    assert (
+        "cells of 1 / resolution = 0.142857 m; nearest: {}".format(nearest)
+        in found["object.size.0"]
+    )
 
 
 def test_nearest_sizes_are_accepted(fabric_mapping, change, tmp_path):

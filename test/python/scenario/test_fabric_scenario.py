@@ -34,7 +34,8 @@ def test_limits(scenario):
     assert scenario.controller.collision.offset == 0.1
     assert (scenario.simulation.duration, scenario.simulation.substeps) == (900.0, 10)
     slack = pair_limits(scenario, 0, 1).max_distance - math.dist(
-        scenario.agents[0].start, scenario.agents[1].start)
+        scenario.agents[0].start, scenario.agents[1].start
+    )
     assert 0.0 < slack < 0.1  # tight
 
 

@@ -104,7 +104,9 @@ def test_file_and_scale(inline, change, tmp_path):
 def test_places_and_limits(fabric_mapping, tmp_path):
     del fabric_mapping["agents"]["helper"]["start"]
     fabric_mapping["object"]["pose"] = {
-        "position": [1.0, 2.0, 3.0], "orientation": [0.0, 0.0, 0.6, 0.8]}
+        "position": [1.0, 2.0, 3.0],
+        "orientation": [0.0, 0.0, 0.6, 0.8],
+    }
     fabric_mapping["agents"]["hand"].pop("start")
     fabric_mapping["agents"]["helper"]["particle"] = 4
     fabric_mapping["controller"]["overstretch"] = {"fraction": 1.0}
@@ -135,11 +137,15 @@ def test_substeps_suit_the_object(fabric_mapping, mapping, change, tmp_path, tim
 def test_round_trip(correct_fabric, cells, resolution, density, compliance):
     raw = copy.deepcopy(correct_fabric)
     raw["object"].update(
-        size=[count / resolution for count in cells], resolution=resolution,
-        density=density, stretching_compliance=compliance,
+        size=[count / resolution for count in cells],
+        resolution=resolution,
+        density=density,
+        stretching_compliance=compliance,
     )
-    raw["agents"] = {"hand": {"particle": 0, "role": "leader"},
-                     "helper": {"particle": cells[0], "role": "assistant"}}
+    raw["agents"] = {
+        "hand": {"particle": 0, "role": "leader"},
+        "helper": {"particle": cells[0], "role": "assistant"},
+    }
     raw["controller"].update(perturbation=[1e-3] * 3, overstretch={"fraction": 1.0})
     scenario = scenario_from_mapping(raw, "/nowhere")
     mapping = scenario_to_mapping(scenario)

@@ -30,9 +30,7 @@ def test_file_names_become_absolute_paths(cube, change, name):
     assert again == scenario
 
 
-@pytest.mark.parametrize(
-    "scale, expected", [(2, (2.0, 2.0, 2.0)), ([1, 2, 0.5], (1.0, 2.0, 0.5))]
-)
+@pytest.mark.parametrize("scale, expected", [(2, (2.0, 2.0, 2.0)), ([1, 2, 0.5], (1.0, 2.0, 0.5))])
 def test_scale(cube, change, tmp_path, scale, expected):
     change(cube, "obstacles.1.scale", scale)
     assert scenario_from_mapping(cube, tmp_path).obstacles[1].scale == expected
@@ -79,7 +77,9 @@ def test_all_mistakes_of_an_obstacle_with_two_shapes(cube, change, problems_of):
     change(cube, "obstacles.1.plane", "ab")
     change(cube, "obstacles.1.scale", 2)
     assert set(problems_of(cube)) == {
-        "obstacles.1.mesh", "obstacles.1.plane", "obstacles.1.polygon"
+        "obstacles.1.mesh",
+        "obstacles.1.plane",
+        "obstacles.1.polygon",
     }
 
 

@@ -58,9 +58,10 @@ def test_an_obstacle_stands_where_none_is_given(mapping, tmp_path):
 
 @pytest.mark.parametrize("motion", [{}, None, 3, {"topic": "a", "frame": "b"}, {"topics": "a"}])
 def test_there_is_exactly_one_source(with_motion, problems_of, motion):
-    assert "must be a section with one of the keys waypoints, topic, frame" in problems_of(
-        with_motion(motion)
-    )[KEY]
+    assert (
+        "must be a section with one of the keys waypoints, topic, frame"
+        in problems_of(with_motion(motion))[KEY]
+    )
 
 
 @pytest.mark.parametrize(
@@ -76,8 +77,11 @@ def test_there_is_exactly_one_source(with_motion, problems_of, motion):
         ({"waypoints": [{"time": -1.0}]}, "waypoints.0.time", ">= 0"),
         ({"waypoints": [{"time": 1.0}, {"time": 1.0}]}, "waypoints.1.time", "at least 0.001 s"),
         ({"waypoints": [{"time": 1.0, "position": [0, 0]}]}, "waypoints.0.position", "[x, y, z]"),
-        ({"waypoints": [{"time": 1.0, "orientation": [0, 0, 0, 2]}]}, "waypoints.0.orientation",
-         "of norm 1"),
+        (
+            {"waypoints": [{"time": 1.0, "orientation": [0, 0, 0, 2]}]},
+            "waypoints.0.orientation",
+            "of norm 1",
+        ),
         ({"waypoints": [{"position": [0, 0, 0]}]}, "waypoints.0.time", "is missing"),
     ],
 )

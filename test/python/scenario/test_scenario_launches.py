@@ -54,7 +54,12 @@ def test_arguments_are_those_of_the_common_launch_file(name, launch, common):
     for argument in own:
         assert own[argument] == known[argument]
     assert set(known) - set(own) == {
-        "assistants", "leader", "observers", "required", "rviz_config", "scenario"
+        "assistants",
+        "leader",
+        "observers",
+        "required",
+        "rviz_config",
+        "scenario",
     }
 
 

@@ -107,8 +107,11 @@ def test_polygon_files_are_relative_to_the_scenario(mapping, change, tmp_path, m
 
 
 def test_polygon_files_of_this_package(mapping, change, tmp_path):
-    change(mapping, "obstacles.0.polygon",
-           "package://deformable_manipulation/config/obstacles/ground.csv")
+    change(
+        mapping,
+        "obstacles.0.polygon",
+        "package://deformable_manipulation/config/obstacles/ground.csv",
+    )
     assert len(scenario_from_mapping(mapping, tmp_path).obstacles[0].points) == 86
 
 

@@ -160,11 +160,18 @@ def test_agent_names_are_parts_of_topic_names(mapping, problems_of, name):
 
 
 def test_roles(mapping, change, problems_of):
-    assert "these have it: hand, helper" in problems_of(
-        change(mapping, "agents.helper.role", "leader"))["agents"]
-    assert "none has it" in problems_of(
-        change(change(mapping, "agents.helper.role", "assistant"), "agents.hand.role", "assistant")
-    )["agents"]
+    assert (
+        "these have it: hand, helper"
+        in problems_of(change(mapping, "agents.helper.role", "leader"))["agents"]
+    )
+    assert (
+        "none has it"
+        in problems_of(
+            change(
+                change(mapping, "agents.helper.role", "assistant"), "agents.hand.role", "assistant"
+            )
+        )["agents"]
+    )
     del mapping["agents"]["helper"]
     mapping["agents"]["hand"]["role"] = "leader"
     assert "at least one agent with role assistant" in problems_of(mapping)["agents"]
@@ -225,8 +232,18 @@ def test_syntax_errors_tell_the_line(text, line):
 
 @pytest.mark.parametrize(
     "content",
-    [b"", b"# only a comment\n", b"\xff\xfe\x00", b"a: 2001-99-99", b"a: !!int ''", b"\x00",
-     b"a: !!timestamp x", b"--- 1\n--- 2\n", b"? [1]\n: 2", b"[" * 5000],
+    [
+        b"",
+        b"# only a comment\n",
+        b"\xff\xfe\x00",
+        b"a: 2001-99-99",
+        b"a: !!int ''",
+        b"\x00",
+        b"a: !!timestamp x",
+        b"--- 1\n--- 2\n",
+        b"? [1]\n: 2",
+        b"[" * 5000,
+    ],
 )
 def test_files_that_hold_no_scenario(tmp_path, content):
     path = tmp_path / "x.yaml"
@@ -261,8 +278,9 @@ def test_aliases_that_contain_themselves(tmp_path):
 
 def test_messages_stay_short_for_nested_aliases(tmp_path):
     levels = ["a0: &a0 [1, 2, 3, 4, 5, 6, 7, 8, 9]"]
-    levels += ["a{0}: &a{0} [{1}]".format(i, ", ".join(["*a{}".format(i - 1)] * 9))
-               for i in range(1, 12)]
+    levels += [
+        "a{0}: &a{0} [{1}]".format(i, ", ".join(["*a{}".format(i - 1)] * 9)) for i in range(1, 12)
+    ]
     path = tmp_path / "x.yaml"
     path.write_text("\n".join(levels + ["object: *a11"]))
     with pytest.raises(ScenarioError) as caught:

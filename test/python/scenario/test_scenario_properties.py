@@ -107,8 +107,7 @@ def scenario_mappings(draw):
         "obstacles": obstacles,
         "leader": {
             "waypoints": [
-                {"time": time, "position": draw(waypoint) if time else [0, 0, 0]}
-                for time in times
+                {"time": time, "position": draw(waypoint) if time else [0, 0, 0]} for time in times
             ]
         },
         "controller": {
@@ -159,8 +158,10 @@ junk = st.recursive(
     | st.binary(max_size=4)
     | st.just(datetime.date(2001, 1, 1))
     | st.just({1, 2}),
-    lambda inner: st.lists(inner, max_size=4)
-    | st.dictionaries(st.text(max_size=5) | st.integers() | st.none(), inner, max_size=3),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.text(max_size=5) | st.integers() | st.none(), inner, max_size=3)
+    ),
     max_leaves=8,
 )
 
