@@ -27,7 +27,7 @@ selections = st.sampled_from(["local", "elements"])
 
 
 def random_ring(rng):
-    """Convex or not, of either orientation; some on a grid, as some lines are, so that they touch."""
+    """Convex or not, of either orientation; some on a grid, as some lines are, which touch then."""
     if rng.random() < 0.3:
         ring = np.array((SQUARE, HILLS, COMB)[rng.integers(3)])
     else:
