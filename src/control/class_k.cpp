@@ -21,5 +21,14 @@ PiecewiseLinearClassK::PiecewiseLinearClassK(double above, double below) : above
   }
 }
 
+PiecewiseLinearClassK PiecewiseLinearClassK::read(const ParameterSection& section, const std::string& key) {
+  const Eigen::Vector2d slopes = section.vector<2>(key);
+  if (!isSlope(slopes[0]) || !isSlope(slopes[1])) {
+    section.check().require(false, section.pathOf(key), slopes.minCoeff(), "two positive finite numbers [1/s]");
+    return {1.0, 1.0};
+  }
+  return {slopes[0], slopes[1]};
+}
+
 }  // namespace control
 }  // namespace deformable_manipulation

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double SMALLEST_DISPLACEMENT = 1e-6;  // m, below which a difference is rounding
 
-double finiteMinimum(const DistancesView& distances, int copy) {
+double finiteMinimum(const distance::Distances& distances, int copy) {
   return std::isfinite(distances.minimum[copy]) ? distances.minimum[copy] : 0.0;
 }
 
@@ -69,7 +69,7 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
     const int copy = usable_[i];
     directions_.row(i) = Eigen::Map<const Vector3>(observation.displacements + 3 * copy).transpose();
     change_.row(i).head(size) = coordinates(copy) - coordinates(0);
-    change_(i, size) = finiteMinimum(observation.distances, copy) - finiteMinimum(observation.distances, 0);
+    change_(i, size) = finiteMinimum(*observation.distances, copy) - finiteMinimum(*observation.distances, 0);
     for (int axis = 0; axis < 3; ++axis) {
       change_.row(i) -= directions_(i, axis) * agent.rates.row(axis);
     }
@@ -85,20 +85,21 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
   }
 }
 
-void Differences::takeGradients(const DistancesView& distances, Features& features) const {
+void Differences::takeGradients(const distance::Distances& distances, Features& features) const {
   features.take(distances, static_cast<int>(agents_.size()), false);
   for (int m = 0; m < features.size(); ++m) {
+    const distance::Feature& feature = distances.features[m];
     for (int agent = 0; agent < features.agents(); ++agent) {
       for (int k = 0; k < 3 && agent != leader_; ++k) {
-        const auto rates = agents_[agent].rates.middleCols<3>(3L * distances.vertices[3 * m + k]);
-        features.gradient(m, agent) += distances.weights[3 * m + k] * (rates * features.normal[m]);
+        const auto rates = agents_[agent].rates.middleCols<3>(3L * feature.vertices[k]);
+        features.gradient(m, agent) += feature.weights[k] * (rates * features.normal[m]);
       }
     }
   }
   features.completeLeader(leader_);
 }
 
-void Differences::takeMinimum(const DistancesView& distances, Features& features) const {
+void Differences::takeMinimum(const distance::Distances& distances, Features& features) const {
   features.take(distances, static_cast<int>(agents_.size()), true);
   for (int agent = 0; agent < features.agents() && features.size() > 0; ++agent) {
     if (agent != leader_) {

@@ -5,15 +5,16 @@
 namespace deformable_manipulation {
 namespace control {
 
-void Features::take(const DistancesView& distances, int agents, bool nearest_only) {
+void Features::take(const distance::Distances& distances, int agents, bool nearest_only) {
   const int count = std::min(distances.offsets[1], nearest_only ? 1 : distances.offsets[1]);
   agents_ = agents;
-  distance.assign(distances.distance, distances.distance + count);
+  distance.clear();
   normal.clear();
   obstacle_velocity.clear();
   for (int m = 0; m < count; ++m) {
-    normal.push_back(distances.normalOf(m));
-    obstacle_velocity.push_back(distances.obstacleVelocityOf(m));
+    distance.push_back(distances.features[m].distance);
+    normal.push_back(distances.features[m].normal);
+    obstacle_velocity.push_back(distances.features[m].obstacle_velocity);
   }
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());
 }

@@ -16,10 +16,6 @@ bool areFinite(const double* values, long count) {
   return (0.0 * Eigen::Map<const Eigen::ArrayXd>(values, count)).sum() == 0.0;
 }
 
-bool areWithin(const int* values, long count, int least, int most) {
-  return std::all_of(values, values + count, [=](int value) { return least <= value && value <= most; });
-}
-
 std::string notFinite(const ObservationView& o) {
   if (!std::isfinite(o.time)) {
     std::ostringstream text;
@@ -36,15 +32,10 @@ std::string notFinite(const ObservationView& o) {
     const double* values;
     long count;
   };
-  const DistancesView& d = o.distances;
-  const long vectors = 3L * d.features;
   const long coordinates = 3L * o.copies * o.points;
   for (const Field& field :
        {Field{"positions", o.positions, 3L * o.agents}, Field{"velocities", o.velocities, 3L * o.agents},
         Field{"points", o.coordinates, coordinates}, Field{"displacements", o.displacements, 3L * o.copies},
-        Field{"distances.distance", d.distance, d.features}, Field{"distances.normal", d.normal, vectors},
-        Field{"distances.weights", d.weights, vectors},
-        Field{"distances.obstacle_velocity", d.obstacle_velocity, vectors},
         Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
     if (field.values != nullptr && !areFinite(field.values, field.count)) {
       return std::string(field.name) + " of the state holds a number that is not finite";
@@ -53,26 +44,55 @@ std::string notFinite(const ObservationView& o) {
   return "";
 }
 
+std::string notFinite(const distance::Distances& distances) {
+  const auto fault = [](const char* name) {
+    return std::string("distances.") + name + " of the state holds a number that is not finite";
+  };
+  for (const distance::Feature& feature : distances.features) {
+    if (!std::isfinite(feature.distance)) {
+      return fault("distance");
+    }
+    if (!feature.normal.allFinite()) {
+      return fault("normal");
+    }
+    if (!areFinite(feature.weights.data(), 3)) {
+      return fault("weights");
+    }
+    if (!feature.obstacle_velocity.allFinite()) {
+      return fault("obstacle_velocity");
+    }
+  }
+  return "";
+}
+
 std::string wrongIndex(const ObservationView& o) {
-  const DistancesView& d = o.distances;
-  bool covered = d.offsets[0] == 0 && d.offsets[o.copies] == d.features;
-  for (int copy = 0; copy < o.copies; ++copy) {
-    covered = covered && d.offsets[copy] <= d.offsets[copy + 1];
+  const std::vector<int>& offsets = o.distances->offsets;
+  const auto features = static_cast<int>(o.distances->features.size());
+  if (offsets.size() != static_cast<std::size_t>(o.copies) + 1 || offsets.front() != 0 || offsets.back() != features ||
+      !std::is_sorted(offsets.begin(), offsets.end())) {
+    return "distances.offsets of the state do not cover the " + std::to_string(features) + " features of its " +
+           std::to_string(o.copies) + " copies";
   }
-  if (!covered) {
-    return "distances.offsets of the state do not cover its " + std::to_string(d.features) + " features";
+  for (const distance::Feature& feature : o.distances->features) {
+    for (const int vertex : feature.vertices) {
+      if (vertex < 0 || vertex >= o.points) {
+        return "distances.vertices of the state are outside 0 .. " + std::to_string(o.points - 1);
+      }
+    }
   }
-  if (!areWithin(d.vertices, 3L * d.features, 0, o.points - 1)) {
-    return "distances.vertices of the state are outside 0 .. " + std::to_string(o.points - 1);
-  }
-  if (!areWithin(o.displaced_agents, o.copies, -1, o.agents - 1)) {
+  if (std::any_of(o.displaced_agents, o.displaced_agents + o.copies,
+                  [&o](int agent) { return agent < -1 || agent >= o.agents; })) {
     return "displaced_agents of the state are outside -1 .. " + std::to_string(o.agents - 1);
   }
   return "";
 }
 
 //! A minimum is infinite, and only then, where a copy has no feature.
-std::string wrongMinimum(const DistancesView& d, int copies) {
+std::string wrongMinimum(const distance::Distances& d, int copies) {
+  if (d.minimum.size() != static_cast<std::size_t>(copies)) {
+    return "distances.minimum of the state has " + std::to_string(d.minimum.size()) + " numbers for " +
+           std::to_string(copies) + " copies";
+  }
   for (int copy = 0; copy < copies; ++copy) {
     const bool without = d.offsets[copy] == d.offsets[copy + 1];
     if (!std::isfinite(d.minimum[copy]) && !(without && d.minimum[copy] == std::numeric_limits<double>::infinity())) {
@@ -87,9 +107,12 @@ std::string wrongMinimum(const DistancesView& d, int copies) {
 std::string findFault(const ObservationView& observation) {
   std::string fault = notFinite(observation);
   if (fault.empty()) {
+    fault = notFinite(*observation.distances);
+  }
+  if (fault.empty()) {
     fault = wrongIndex(observation);
   }
-  return fault.empty() ? wrongMinimum(observation.distances, observation.copies) : fault;
+  return fault.empty() ? wrongMinimum(*observation.distances, observation.copies) : fault;
 }
 
 }  // namespace control

@@ -15,23 +15,24 @@ namespace {
 // program and shows in the slack alone.
 constexpr double NEGLIGIBLE_GRADIENT = 1e-3;
 
-// Cost of one m/s of slack, in multiples of the steepest cost of departing from the nominal velocity, from
-// the first limit in the priority to the last.
-constexpr std::array<double, LIMIT_TIERS> PENALTIES = {1e6, 1e4, 1e2};
+// Cost of one m/s of slack, in multiples of the steepest cost of departing from the nominal velocity, as powers of ten:
+// of the first limit in the priority and of the last.
+constexpr double FIRST_PENALTY = 6.0;
+constexpr double LAST_PENALTY = 2.0;
 
 // A row yields at least this part of what the others of its limit do: the penalties stay apart.
 constexpr double LEAST_YIELDING = 0.1;
 
-std::array<double, TIERS> penaltiesOf(const Priority& priority) {
-  std::array<double, TIERS> penalties = {};
-  for (int place = 0; place < LIMIT_TIERS; ++place) {
-    if (priority[place] == Tier::ANTICIPATION) {
-      throw std::invalid_argument("priority: anticipation is no limit, and always the first to yield");
+std::vector<double> penaltiesOf(const Priority& priority) {
+  const int limits = static_cast<int>(priority.size());
+  std::vector<double> penalties(priority.size() + 1, 0.0);
+  for (int place = 0; place < limits; ++place) {
+    const int limit = priority[place];
+    if (limit < 0 || limit >= limits || penalties[limit] != 0.0) {
+      throw std::invalid_argument("priority: allowed is an order in which each limit stands once");
     }
-    penalties[static_cast<int>(priority[place])] = PENALTIES[place];
-  }
-  if (std::count(penalties.begin(), penalties.end(), 0.0) != TIERS - LIMIT_TIERS) {
-    throw std::invalid_argument("priority: names a limit twice; allowed is an order of all of them");
+    const double step = (FIRST_PENALTY - LAST_PENALTY) / std::max(1, limits - 1);
+    penalties[limit] = std::pow(10.0, FIRST_PENALTY - step * place);
   }
   return penalties;
 }
@@ -65,11 +66,11 @@ const Filtered& SafetyFilter::filter(const Eigen::VectorXd& nominal, const Const
   }
   result_.rows = rows.size();
   result_.rows_act = false;
-  result_.slack.fill(0.0);
+  result_.slack.assign(penalties_.size(), 0.0);
   result_.status = decide({nominal, rows, lower, upper});
   if (result_.status == Status::FAILED) {
     result_.velocity = Eigen::VectorXd::Zero(n);
-    result_.slack.fill(0.0);
+    result_.slack.assign(penalties_.size(), 0.0);
   }
   return result_;
 }
@@ -80,6 +81,9 @@ Status SafetyFilter::decide(const Given& given) {
     return Status::FAILED;
   }
   for (int row = 0; row < given.rows.size(); ++row) {
+    if (given.rows.kind(row) < 0 || given.rows.kind(row) >= kinds()) {
+      throw std::invalid_argument("a row is of no kind that the filter has");
+    }
     // A sum is finite only if all terms are.
     if (!std::isfinite(given.rows.coefficients(row).sum() + given.rows.bound(row))) {
       return Status::FAILED;
@@ -113,7 +117,7 @@ bool SafetyFilter::holds(const Given& given) const {
 
 void SafetyFilter::formulate(const Given& given) {
   const Eigen::Index n = squares_.size();
-  const Eigen::Index slacks = relaxation_ ? TIERS : 0;
+  const Eigen::Index slacks = relaxation_ ? kinds() : 0;
   program_.hessian.resize(n + slacks);
   program_.linear.resize(n + slacks);
   program_.hessian.head(n) = squares_;
@@ -122,11 +126,10 @@ void SafetyFilter::formulate(const Given& given) {
   if (relaxation_) {
     const auto reach = given.lower.cwiseAbs().cwiseMax(given.upper.cwiseAbs());
     const double steepest = (squares_.array() * (given.nominal.cwiseAbs() + reach).array()).maxCoeff();
-    for (int tier = 0; tier < TIERS; ++tier) {
-      const bool is_limit = penalties_[tier] > 0.0;
-      program_.hessian[n + tier] = is_limit ? 1.0 : anticipation_;
-      program_.linear[n + tier] = penalties_[tier] * (steepest > 0.0 ? steepest : 1.0);
-      program_.addRow(0.0)[n + tier] = 1.0;
+    for (int kind = 0; kind < kinds(); ++kind) {
+      program_.hessian[n + kind] = isLimit(kind) ? 1.0 : anticipation_;
+      program_.linear[n + kind] = penalties_[kind] * (steepest > 0.0 ? steepest : 1.0);
+      program_.addRow(0.0)[n + kind] = 1.0;
     }
   }
   if (relaxation_) {
@@ -155,11 +158,11 @@ void SafetyFilter::measureDemands(const Given& given) {
 double SafetyFilter::yielding(const Given& given, int row) const {
   const ConstraintRows::Coefficients g = given.rows.coefficients(row);
   double part = 1.0;
-  if (penalties_[static_cast<int>(given.rows.tier(row))] == 0.0 || !(demands_[row] > 1.0)) {
+  if (!isLimit(given.rows.kind(row)) || !(demands_[row] > 1.0)) {
     return part;
   }
   for (int other = 0; other < given.rows.size(); ++other) {
-    if (given.rows.tier(other) != given.rows.tier(row) || !(demands_[other] > -1.0)) {
+    if (given.rows.kind(other) != given.rows.kind(row) || !(demands_[other] > -1.0)) {
       continue;
     }
     const ConstraintRows::Coefficients h = given.rows.coefficients(other);
@@ -185,7 +188,7 @@ void SafetyFilter::addRow(const Given& given, int row) {
   auto added = program_.addRow(limit);
   added.head(g.size()) = g.transpose();
   if (relaxation_) {
-    added[g.size() + static_cast<int>(given.rows.tier(row))] = yielding(given, row);
+    added[g.size() + given.rows.kind(row)] = yielding(given, row);
   }
 }
 
@@ -222,17 +225,17 @@ bool SafetyFilter::isValid() const {
   return true;
 }
 
-//! By how much the rows of each tier are missed; true if a limit is.
+//! By how much the rows of each kind are missed; true if a limit is.
 bool SafetyFilter::measureSlack(const Given& given) {
   for (int row = 0; row < given.rows.size(); ++row) {
     const double missing = given.rows.bound(row) - given.rows.coefficients(row).dot(result_.velocity);
-    double& slack = result_.slack[static_cast<int>(given.rows.tier(row))];
+    double& slack = result_.slack[given.rows.kind(row)];
     if (missing > VELOCITY_TOLERANCE) {
       slack = std::max(slack, missing);
     }
   }
-  for (int tier = 0; tier < TIERS; ++tier) {
-    if (penalties_[tier] > 0.0 && result_.slack[tier] > 0.0) {
+  for (int kind = 0; kind < kinds(); ++kind) {
+    if (isLimit(kind) && result_.slack[kind] > 0.0) {
       return true;
     }
   }

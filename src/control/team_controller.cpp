@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace deformable_manipulation {
 namespace control {
@@ -24,22 +25,31 @@ Status statusOf(const Filtered& result, const Decision& decision) {
   return departure > VELOCITY_TOLERANCE ? Status::CONSTRAINED : Status::NOMINAL;
 }
 
-PairBarrier makePair(PairBarrier::Kind kind, const ControllerParameters& p, const PairParameters& pair) {
-  return {kind, p.commanded, p.leader, pair.limits, pair.margin, pair.alpha, p.formulation.shares};
+std::vector<std::unique_ptr<Barrier>> makeBarriers(const ControllerParameters& p) {
+  pbd::ParameterCheck check;
+  const ParameterSection controller(p.values, "controller", check);
+  std::vector<std::unique_ptr<Barrier>> barriers;
+  for (const std::string& name : p.barriers) {
+    const auto maker = barrierMakers().find(name);
+    if (maker == barrierMakers().end()) {
+      throw std::invalid_argument("controller." + name + ": there is no barrier of this name");
+    }
+    barriers.push_back(maker->second(controller.section(name), p.team));
+  }
+  check.throwIfAny();
+  return barriers;
 }
 
 }  // namespace
 
 TeamController::TeamController(const ControllerParameters& p)
     : parameters_(p),
-      collision_(p.commanded, p.assistants, p.collision, p.max_velocity, p.formulation),
-      overstretch_(makePair(PairBarrier::Kind::OVERSTRETCH, p, p.overstretch)),
-      proximity_(makePair(PairBarrier::Kind::PROXIMITY, p, p.proximity)),
+      barriers_(makeBarriers(p)),
       velocities_(1e-4, p.timeout),
-      differences_(static_cast<int>(p.overstretch.limits.rows()), p.leader),
-      filter_(p.weights.replicate(p.commanded.size(), 1), p.priority, p.formulation.relaxation),
-      positions_(p.overstretch.limits.rows()) {
-  for (const int agent : p.commanded) {
+      differences_(p.team.agents, p.team.leader),
+      filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
+  present_.positions.resize(p.team.agents);
+  for (const int agent : p.team.commanded) {
     members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
   }
   setSmoothing();
@@ -55,21 +65,27 @@ void TeamController::setSmoothing() {
   filter_.setAnticipation((1.0 - kept_) * ANTICIPATION_WEIGHT);
 }
 
-void TeamController::setParameters(const ControllerParameters& p) {
-  const auto agents = static_cast<Eigen::Index>(positions_.size());
-  if (p.commanded != parameters_.commanded || p.leader != parameters_.leader ||
-      p.assistants != parameters_.assistants || p.overstretch.limits.rows() != agents ||
-      p.proximity.limits.rows() != agents) {
-    throw std::invalid_argument("parameters of other agents");
+void TeamController::setParameters(const ControllerParameters& given) {
+  const Team& team = parameters_.team;
+  if (given.team.agents != team.agents || given.team.leader != team.leader || given.team.commanded != team.commanded ||
+      given.team.assistants != team.assistants || given.barriers != parameters_.barriers) {
+    throw std::invalid_argument("parameters of other agents or barriers");
   }
-  filter_.setWeights(p.weights.replicate(p.commanded.size(), 1));
-  const Formulation formulation = parameters_.formulation;
-  parameters_ = p;
-  parameters_.formulation = formulation;
+  ControllerParameters p = given;
+  p.team.formulation = team.formulation;
+  std::vector<std::unique_ptr<Barrier>> barriers = makeBarriers(p);
+  filter_.setWeights(p.weights.replicate(p.team.commanded.size(), 1));
+  parameters_ = std::move(p);
+  barriers_ = std::move(barriers);
   setSmoothing();
-  collision_ = CollisionBarrier(p.commanded, p.assistants, p.collision, p.max_velocity, formulation);
-  overstretch_ = makePair(PairBarrier::Kind::OVERSTRETCH, parameters_, p.overstretch);
-  proximity_ = makePair(PairBarrier::Kind::PROXIMITY, parameters_, p.proximity);
+}
+
+std::vector<double> TeamController::margins(int member, const PresentState& state) const {
+  std::vector<double> values;
+  for (const auto& barrier : barriers_) {
+    values.push_back(barrier->value(state, members_[member].agent));
+  }
+  return values;
 }
 
 void TeamController::reset() {
@@ -88,7 +104,7 @@ void TeamController::forget() {
 
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
-  taking.reference = observation.position(taking.agent) - observation.position(parameters_.leader);
+  taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
   taking.departure.setZero();  // it was from another nominal velocity
 }
 
@@ -118,7 +134,7 @@ void TeamController::stop() {
 
 void TeamController::clearDecisions() {
   for (int i = 0; i < size(); ++i) {
-    decisions_[i] = Decision{};
+    decisions_[i].clear(static_cast<int>(barriers_.size()));
     decisions_[i].enabled = members_[i].enabled;
   }
 }
@@ -152,43 +168,44 @@ void TeamController::conclude() {
   }
 }
 
-//! The situation when the commands start to act: at the next state, or later if they are late.
+//! The state when the commands start to act: at the next state, or later if they are late.
 void TeamController::predict(const ObservationView& observation) {
   const double* velocities = observation.velocities != nullptr ? observation.velocities : velocities_.velocity().data();
-  situation_.leader = parameters_.leader;
-  situation_.delay = parameters_.formulation.prediction ? parameters_.cycle_time + observation.lateness : 0.0;
-  situation_.positions.resize(positions_.size());
-  situation_.velocities.resize(positions_.size());
+  predicted_.leader = parameters_.team.leader;
+  predicted_.delay = parameters_.team.formulation.prediction ? parameters_.cycle_time + observation.lateness : 0.0;
+  predicted_.positions.resize(present_.positions.size());
+  predicted_.velocities.resize(present_.positions.size());
   for (int agent = 0; agent < observation.agents; ++agent) {
-    positions_[agent] = observation.position(agent);
-    situation_.velocities[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
+    present_.positions[agent] = observation.position(agent);
+    predicted_.velocities[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
   }
   for (const Member& member : members_) {
-    situation_.velocities[member.agent] = member.command;
+    predicted_.velocities[member.agent] = member.command;
   }
   for (int agent = 0; agent < observation.agents; ++agent) {
-    situation_.positions[agent] = positions_[agent] + situation_.delay * situation_.velocities[agent];
+    predicted_.positions[agent] = present_.positions[agent] + predicted_.delay * predicted_.velocities[agent];
   }
 }
 
 Vector3 TeamController::nominal(const Member& member) const {
-  const Vector3 target = situation_.positions[parameters_.leader] + member.reference;
-  const Vector3 back = parameters_.gain * (target - situation_.positions[member.agent]);
-  return parameters_.formulation.leader_velocity ? Vector3(back + situation_.leaderVelocity()) : back;
+  const Vector3 target = predicted_.positions[parameters_.team.leader] + member.reference;
+  const Vector3 back = parameters_.gain * (target - predicted_.positions[member.agent]);
+  return parameters_.team.formulation.leader_velocity ? Vector3(back + predicted_.leaderVelocity()) : back;
 }
 
 //! What the decisions say about the present state, whatever the commands.
 void TeamController::describe(const ObservationView& observation) {
+  present_.distance = observation.distances->minimum[0];
   for (int i = 0; i < size(); ++i) {
     const Member& member = members_[i];
     Decision& decision = decisions_[i];
     decision.nominal = nominal(member);
-    decision.position = positions_[member.agent];
-    decision.target = positions_[parameters_.leader] + member.reference;
-    decision.distance = observation.distances.minimum[0];
-    decision.h_collision = collision_.value(decision.distance);
-    decision.h_overstretch = overstretch_.lowest(positions_, member.agent);
-    decision.h_proximity = proximity_.lowest(positions_, member.agent);
+    decision.position = present_.positions[member.agent];
+    decision.target = present_.positions[parameters_.team.leader] + member.reference;
+    decision.distance = present_.distance;
+    for (std::size_t k = 0; k < barriers_.size(); ++k) {
+      decision.h[k] = barriers_[k]->value(present_, member.agent);
+    }
   }
 }
 
@@ -208,18 +225,18 @@ void TeamController::decide(const ObservationView& observation) {
 
 //! The near features with their gradients; false if those of a commanded assistant are not known.
 bool TeamController::findGradients(const ObservationView& observation) {
-  const bool nearest_only = !parameters_.formulation.every_feature;
+  const bool nearest_only = !parameters_.team.formulation.every_feature;
   if (parameters_.exact_gradients && observation.sensitivities != nullptr) {
-    takeResponseGradients(observation, parameters_.leader, nearest_only, features_);
+    takeResponseGradients(observation, parameters_.team.leader, nearest_only, features_);
     for (Decision& decision : decisions_) {
       decision.exact_jacobian = true;
     }
     return true;
   }
   if (nearest_only) {
-    differences_.takeMinimum(observation.distances, features_);
+    differences_.takeMinimum(*observation.distances, features_);
   } else {
-    differences_.takeGradients(observation.distances, features_);
+    differences_.takeGradients(*observation.distances, features_);
   }
   bool known = true;
   for (int i = 0; i < size(); ++i) {
@@ -232,7 +249,7 @@ bool TeamController::findGradients(const ObservationView& observation) {
 //! How the minimum distance changes with the motion of each commanded assistant and the leader.
 void TeamController::describeGradients() {
   const bool any = features_.size() > 0;
-  const double drift = any ? features_.gradient(0, parameters_.leader).dot(situation_.leaderVelocity()) : 0.0;
+  const double drift = any ? features_.gradient(0, parameters_.team.leader).dot(predicted_.leaderVelocity()) : 0.0;
   for (int i = 0; i < size(); ++i) {
     decisions_[i].jacobian = any ? features_.gradient(0, members_[i].agent) : Vector3::Zero();
     decisions_[i].leader_drift = drift;
@@ -241,8 +258,9 @@ void TeamController::describeGradients() {
 
 //! Velocities that the limits of velocity and acceleration allow in the next cycle: zero for those who are disabled.
 void TeamController::setBounds() {
-  const double step = parameters_.formulation.acceleration_limit ? parameters_.max_acceleration * parameters_.cycle_time
-                                                                 : std::numeric_limits<double>::infinity();
+  const double step = parameters_.team.formulation.acceleration_limit
+                          ? parameters_.max_acceleration * parameters_.cycle_time
+                          : std::numeric_limits<double>::infinity();
   for (int i = 0; i < size(); ++i) {
     auto lower = lower_.segment<3>(3 * i);
     auto upper = upper_.segment<3>(3 * i);
@@ -270,9 +288,11 @@ void TeamController::passUnfiltered() {
 
 void TeamController::passFiltered() {
   rows_.clear(3 * size());
-  collision_.addRows(features_, situation_, rows_);
-  overstretch_.addRows(situation_, rows_);
-  proximity_.addRows(situation_, rows_);
+  const int limits = static_cast<int>(barriers_.size());
+  for (int k = 0; k < limits; ++k) {
+    BarrierRows rows(rows_, k, limits);
+    barriers_[k]->addRows(features_, predicted_, rows);
+  }
   for (int i = 0; i < size(); ++i) {
     const Vector3 nominal = decisions_[i].nominal + kept_ * members_[i].departure;
     nominal_.segment<3>(3 * i) = members_[i].enabled ? nominal : Vector3(Vector3::Zero());
@@ -287,7 +307,7 @@ void TeamController::passFiltered() {
     decision.status = statusOf(result, decision);
     keepDeparture(result.rows_act, decision, members_[i]);
     decision.rows = result.rows;
-    decision.slack = result.slack;
+    std::copy_n(result.slack.begin(), barriers_.size(), decision.slack.begin());
   }
 }
 

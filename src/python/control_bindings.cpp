@@ -6,7 +6,6 @@
 #include <pybind11/numpy.h>
 
 #include "deformable_manipulation/control/class_k.h"
-#include "deformable_manipulation/control/constraint_rows.h"
 #include "deformable_manipulation/control/position_filter.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
@@ -102,11 +101,7 @@ void bindFilter(py::module_& module) {
 
 PYBIND11_MODULE(_control, module) {
   module.doc() = "Safe velocity control of assistants (C++ core).";
-  py::enum_<Tier>(module, "Tier", "Kinds of constraints.")
-      .value("COLLISION", Tier::COLLISION)
-      .value("OVERSTRETCH", Tier::OVERSTRETCH)
-      .value("PROXIMITY", Tier::PROXIMITY)
-      .value("ANTICIPATION", Tier::ANTICIPATION);
+  py::module_::import("deformable_manipulation._distance");  // Distances, which observations hold
   py::class_<PiecewiseLinearClassK>(module, "PiecewiseLinearClassK",
                                     "Extended class K-infinity function: slopes [1/s] for h >= 0 and h < 0. Raises "
                                     "ValueError.")

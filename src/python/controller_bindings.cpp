@@ -8,15 +8,15 @@
 #include "control_bindings.h"
 #include "deformable_manipulation/control/team_controller.h"
 #include "observation_reader.h"
+#include "parameter_value_from_python.h"
 #include "solver_from_python.h"
 
 namespace py = pybind11;
 using namespace deformable_manipulation::control;
-using Slopes = std::pair<double, double>;
+using deformable_manipulation::ParameterSection;
+using deformable_manipulation::ParameterValue;
 
 namespace {
-
-PiecewiseLinearClassK toClassK(const Slopes& slopes) { return {slopes.first, slopes.second}; }
 
 //! A controller with what it needs to read observations.
 struct BoundController {
@@ -25,28 +25,32 @@ struct BoundController {
   ObservationReader reader;
 
   explicit BoundController(const ControllerParameters& parameters)
-      : controller(parameters), agents(static_cast<int>(parameters.overstretch.limits.rows())) {}
+      : controller(parameters), agents(parameters.team.agents) {}
 };
 
-py::array_t<double> toArray(const Vector3& vector) { return py::array_t<double>(3, vector.data()); }
+//! The answer to an observation.
+struct Answer {
+  std::string fault;  // of the observation, as a clause; empty: none
+  std::vector<Decision> decisions;
+};
 
-//! Whether copies are missing, the status as a number, the fields of control.decision.Decision from `command` to
-//! `rows`, the slacks, the time of the solver.
-py::tuple toTuple(const Decision& d) {
-  const py::tuple fields =
-      py::make_tuple(toArray(d.command), toArray(d.nominal), toArray(d.position), toArray(d.target),
-                     toArray(d.target - d.position), d.distance, d.h_collision, d.h_overstretch, d.h_proximity,
-                     toArray(d.jacobian), d.exact_jacobian, d.leader_drift, d.rows);
-  const py::tuple slacks = py::make_tuple(d.slack[0], d.slack[1], d.slack[2]);
-  return py::make_tuple(d.lacks_copies, static_cast<int>(d.status), fields, slacks, d.solve_time);
+ControllerParameters toParameters(const py::dict& controller, const py::dict& team) {
+  const ParameterValue controller_value = toParameterValue(controller);
+  const ParameterValue team_value = toParameterValue(team);
+  deformable_manipulation::pbd::ParameterCheck check;
+  const ControllerParameters parameters =
+      ControllerParameters::read({controller_value, "controller", check}, {team_value, "team", check});
+  check.throwIfAny();
+  return parameters;
 }
 
-py::list toList(const std::vector<Decision>& decisions) {
-  py::list list;
-  for (const Decision& decision : decisions) {
-    list.append(toTuple(decision));
+std::unique_ptr<BoundController> makeController(const py::dict& controller, const py::dict& team,
+                                                const py::object& solver) {
+  auto bound = std::make_unique<BoundController>(toParameters(controller, team));
+  if (!solver.is_none()) {
+    bound->controller.setSolver(solverFromPython(solver));
   }
-  return list;
+  return bound;
 }
 
 int checked(const BoundController& bound, int member) {
@@ -59,12 +63,12 @@ int checked(const BoundController& bound, int member) {
 py::object update(BoundController& bound, const py::object& observation) {
   const std::string fault = bound.reader.read(observation, bound.agents);
   if (!fault.empty()) {
-    return py::make_tuple(fault, toList(bound.controller.wait()));
+    return py::cast(Answer{fault, bound.controller.wait()});
   }
   if (bound.controller.isAnswered(bound.reader.view().time)) {
     return py::none();
   }
-  return py::make_tuple("", toList(bound.controller.update(bound.reader.view())));
+  return py::cast(Answer{"", bound.controller.update(bound.reader.view())});
 }
 
 void takeReference(BoundController& bound, int member, const py::object& observation) {
@@ -75,86 +79,43 @@ void takeReference(BoundController& bound, int member, const py::object& observa
   bound.controller.takeReference(checked(bound, member), bound.reader.view());
 }
 
-//! Reads a parameter by its name.
-template <typename Value>
-void read(const py::dict& from, const char* key, Value& to) {
-  to = from[key].cast<Value>();
+//! A vector of a decision as a new array.
+auto vector(Vector3 Decision::*member) {
+  return [member](const Decision& d) { return py::array_t<double>(3, (d.*member).data()); };
 }
 
-PairParameters toPair(const py::dict& given) {
-  PairParameters pair;
-  read(given, "limits", pair.limits);
-  read(given, "margin", pair.margin);
-  pair.alpha = toClassK(given["alpha"].cast<Slopes>());
-  return pair;
-}
-
-CollisionParameters toCollision(const py::dict& given) {
-  CollisionParameters collision;
-  read(given, "offset", collision.offset);
-  read(given, "margin", collision.margin);
-  read(given, "speed_margin", collision.speed_margin);
-  read(given, "band", collision.band);
-  collision.alpha = toClassK(given["alpha"].cast<Slopes>());
-  collision.anticipation = toClassK(given["anticipation"].cast<Slopes>());
-  return collision;
-}
-
-ControllerParameters toParameters(const py::dict& given) {
-  ControllerParameters p;
-  read(given, "commanded", p.commanded);
-  read(given, "leader", p.leader);
-  read(given, "assistants", p.assistants);
-  read(given, "references", p.references);
-  read(given, "cycle_time", p.cycle_time);
-  read(given, "gain", p.gain);
-  read(given, "weights", p.weights);
-  read(given, "max_velocity", p.max_velocity);
-  read(given, "max_acceleration", p.max_acceleration);
-  read(given, "smoothing", p.smoothing);
-  read(given, "timeout", p.timeout);
-  read(given, "exact_gradients", p.exact_gradients);
-  read(given, "safety", p.safety);
-  p.formulation = given["formulation"].cast<Formulation>();
-  p.priority = toPriority(given["priority"].cast<std::vector<std::string>>());
-  p.collision = toCollision(given["collision"].cast<py::dict>());
-  p.overstretch = toPair(given["overstretch"].cast<py::dict>());
-  p.proximity = toPair(given["proximity"].cast<py::dict>());
-  return p;
-}
-
-std::unique_ptr<BoundController> makeController(const py::dict& given) {
-  auto bound = std::make_unique<BoundController>(toParameters(given));
-  if (!given["solver"].is_none()) {
-    bound->controller.setSolver(solverFromPython(given["solver"]));
-  }
-  return bound;
-}
-
-void bindFormulation(py::module_& module) {
-  py::class_<Formulation>(module, "Formulation", "What the controller takes into account beyond the paper's equations.")
-      .def(py::init<>(), "All of it.")
-      .def_static("paper", &Formulation::paper, "The paper's equations 2 to 13.")
-      .def_readwrite("leader_velocity", &Formulation::leader_velocity, "In the nominal law and the collision rows.")
-      .def_readwrite("obstacle_velocity", &Formulation::obstacle_velocity, "In the collision rows.")
-      .def_readwrite("prediction", &Formulation::prediction, "Of the state over the delay of a cycle.")
-      .def_readwrite("every_feature", &Formulation::every_feature, "A row for each, not one for the minimum.")
-      .def_readwrite("anticipation", &Formulation::anticipation, "A second, softer and slower row for each feature.")
-      .def_readwrite("shares", &Formulation::shares, "Of constraints between assistants.")
-      .def_readwrite("acceleration_limit", &Formulation::acceleration_limit, "As a constraint.")
-      .def_readwrite("relaxation", &Formulation::relaxation, "By priority, where not all limits can hold.");
+void bindDecision(py::module_& module) {
+  py::class_<Decision>(module, "Decision", "What control.decision.Decision is made of; h and slack by barrier.")
+      .def_property_readonly("status", [](const Decision& d) { return static_cast<int>(d.status); })
+      .def_readonly("enabled", &Decision::enabled)
+      .def_readonly("lacks_copies", &Decision::lacks_copies)
+      .def_property_readonly("command", vector(&Decision::command))
+      .def_property_readonly("nominal", vector(&Decision::nominal))
+      .def_property_readonly("position", vector(&Decision::position))
+      .def_property_readonly("target", vector(&Decision::target))
+      .def_property_readonly("jacobian", vector(&Decision::jacobian))
+      .def_readonly("distance", &Decision::distance)
+      .def_readonly("h", &Decision::h)
+      .def_readonly("exact_jacobian", &Decision::exact_jacobian)
+      .def_readonly("leader_drift", &Decision::leader_drift)
+      .def_readonly("rows", &Decision::rows)
+      .def_readonly("slack", &Decision::slack)
+      .def_readonly("solve_time", &Decision::solve_time);
+  py::class_<Answer>(module, "Answer", "What is wrong with an observation, if anything, and the decisions.")
+      .def_readonly("fault", &Answer::fault)
+      .def_readonly("decisions", &Answer::decisions);
 }
 
 }  // namespace
 
 void bindController(py::module_& module) {
-  bindFormulation(module);
+  bindDecision(module);
   py::class_<BoundController>(
       module, "TeamController",
-      "The safe velocity controller of one or several assistants, which go by their numbers in\n"
-      "the parameters; see control.team, which makes those from a scenario. Raises ValueError\n"
-      "for parameters that cannot be used.")
-      .def(py::init(&makeController), py::arg("parameters"))
+      "The safe velocity controller of one or several assistants, which go by their numbers in the team. controller:\n"
+      "dict, the section of the resolved scenario with what its barriers derive from the object; team: dict; see\n"
+      "control.parameters, which makes both. Raises ValueError for parameters that cannot be used.")
+      .def(py::init(&makeController), py::arg("controller"), py::arg("team"), py::arg("solver") = py::none())
       .def(
           "is_enabled",
           [](const BoundController& bound, int member) { return bound.controller.isEnabled(checked(bound, member)); },
@@ -167,12 +128,22 @@ void bindController(py::module_& module) {
           py::arg("member"), py::arg("enabled"), "False answers every state with zero velocity.")
       .def(
           "set_parameters",
-          [](BoundController& bound, const py::dict& given) { bound.controller.setParameters(toParameters(given)); },
-          py::arg("parameters"), "Of the same agents; formulation, priority and solver stay. Raises ValueError.")
+          [](BoundController& bound, const py::dict& controller, const py::dict& team) {
+            bound.controller.setParameters(toParameters(controller, team));
+          },
+          py::arg("controller"), py::arg("team"),
+          "Of the same agents and barriers; formulation, priority and solver stay. Raises ValueError.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
+      .def("update", &update, py::arg("observation"),
+           "The Answer to an observation; None where the state is not newer than the last one.")
       .def(
-          "update", &update, py::arg("observation"),
-          "What is wrong with the observation, and the decisions; None where the state is not newer than the last one.")
-      .def("wait", [](BoundController& bound) { return toList(bound.controller.wait()); });
+          "wait", [](BoundController& bound) { return bound.controller.wait(); }, "Decisions to stand still.")
+      .def(
+          "margins",
+          [](const BoundController& bound, int member, const std::vector<Vector3>& positions, double distance) {
+            return bound.controller.margins(checked(bound, member), {positions, distance});
+          },
+          py::arg("member"), py::arg("positions"), py::arg("distance"),
+          "The least h [m] of each barrier for an assistant, for held points (A, 3) [m] and a minimum distance [m].");
 }

@@ -4,19 +4,20 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "deformable_manipulation/distance/minimum_distance.h"
 #include "distance_arguments.h"
+#include "distances_binding.h"
 
 namespace py = pybind11;
 using namespace deformable_manipulation::distance;
 
 void bindPlanarObstacle(py::module_& module);
 void bindMeshObstacle(py::module_& module);
+void bindDistances(py::module_& module);
 
 namespace {
 
@@ -30,41 +31,11 @@ Selection toSelection(const std::string& name) {
   throw py::value_error("features is '" + name + "'; allowed are 'local' and 'elements'");
 }
 
-//! One row per feature.
-template <typename Number, typename Read>
-py::array_t<Number> rows(const Distances& distances, Read read) {
-  py::array_t<Number> array({static_cast<py::ssize_t>(distances.features.size()), py::ssize_t{3}});
-  Number* to = array.mutable_data();
-  for (const Feature& feature : distances.features) {
-    to = std::copy_n(read(feature), 3, to);
-  }
-  return array;
-}
-
-//! One number per feature.
-template <typename Number>
-py::array_t<Number> column(const Distances& distances, Number Feature::*member) {
-  py::array_t<Number> array(static_cast<py::ssize_t>(distances.features.size()));
-  Number* to = array.mutable_data();
-  for (const Feature& feature : distances.features) {
-    *to++ = feature.*member;
-  }
-  return array;
-}
-
-py::array_t<double> vectors(const Distances& distances, Vector3 Feature::*member) {
-  return rows<double>(distances, [member](const Feature& f) { return (f.*member).data(); });
-}
-
-py::tuple toTuple(const Distances& d) {
-  return py::make_tuple(py::array_t<double>(static_cast<py::ssize_t>(d.minimum.size()), d.minimum.data()),
-                        py::array_t<int>(static_cast<py::ssize_t>(d.offsets.size()), d.offsets.data()),
-                        column(d, &Feature::distance), column(d, &Feature::obstacle),
-                        vectors(d, &Feature::object_point), vectors(d, &Feature::obstacle_point),
-                        vectors(d, &Feature::normal), rows<int>(d, [](const Feature& f) { return f.vertices.data(); }),
-                        rows<double>(d, [](const Feature& f) { return f.weights.data(); }),
-                        vectors(d, &Feature::obstacle_velocity), column(d, &Feature::identity));
-}
+//! The computation with the names of its obstacles.
+struct NamedMinimumDistance {
+  MinimumDistance native;
+  std::shared_ptr<const std::vector<std::string>> names;
+};
 
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -74,7 +45,7 @@ void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
   }
 }
 
-py::tuple compute(MinimumDistance& distance, const Points& points, const py::object& triangles) {
+NamedDistances compute(NamedMinimumDistance& distance, const Points& points, const py::object& triangles) {
   if (points.ndim() != 3 || points.shape(2) != 3) {
     throw py::value_error("points must have the shape (copies, points, 3)");
   }
@@ -88,7 +59,7 @@ py::tuple compute(MinimumDistance& distance, const Points& points, const py::obj
     object.triangles = faces.data();
     object.triangle_count = static_cast<int>(faces.size());
   }
-  return toTuple(distance.compute(object));
+  return {distance.native.compute(object), distance.names};
 }
 
 }  // namespace
@@ -98,18 +69,21 @@ PYBIND11_MODULE(_distance, module) {
   py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.");
   bindPlanarObstacle(module);
   bindMeshObstacle(module);
-  py::class_<MinimumDistance>(
+  bindDistances(module);
+  py::class_<NamedMinimumDistance>(
       module, "MinimumDistance",
       "Signed minimum distances between all copies of an object and several obstacles, from surface to surface.\n\n"
       "Raises ValueError: margin or band [m] is negative or not finite, or features is neither 'local' nor\n"
       "'elements'.")
       .def(py::init([](std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band,
-                       const std::string& features) {
+                       const std::string& features, std::vector<std::string> names) {
              requireObstacles(obstacles);
-             return std::make_unique<MinimumDistance>(std::move(obstacles), margin, band, toSelection(features));
+             return NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band, toSelection(features)),
+                                         std::make_shared<const std::vector<std::string>>(std::move(names))};
            }),
-           py::arg("obstacles"), py::arg("margin"), py::arg("band") = 0.1, py::arg("features") = "elements")
+           py::arg("obstacles"), py::arg("margin"), py::arg("band"), py::arg("features"),
+           py::arg("names") = std::vector<std::string>())
       .def("compute", &compute, py::arg("points"), py::arg("triangles") = py::none(),
-           "The fields of distance.features.Distances but for the names, for points (C, P, 3) [m] and triangles\n"
-           "(T, 3), or None for a polyline. Raises ValueError for another shape or numbers that are not finite.");
+           "Distances of points (C, P, 3) [m] with triangles (T, 3), or None for a polyline. Raises ValueError for "
+           "another shape or numbers that are not finite.");
 }

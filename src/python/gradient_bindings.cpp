@@ -39,14 +39,16 @@ Features makeFeatures(const py::array_t<double>& distance, const py::array_t<dou
   if (n.size() != 3 * count || v.size() != 3 * count || g.ndim() != 3 || g.shape(0) != count || g.shape(2) != 3) {
     throw py::value_error("expected distance (M,), normal (M, 3), obstacle_velocity (M, 3), gradients (M, A, 3)");
   }
-  const int offsets[] = {0, static_cast<int>(count)};
-  DistancesView view;
-  view.offsets = offsets;
-  view.distance = d.data();
-  view.normal = n.data();
-  view.obstacle_velocity = v.data();
+  deformable_manipulation::distance::Distances distances;
+  distances.offsets = {0, static_cast<int>(count)};
+  distances.features.resize(static_cast<std::size_t>(count));
+  for (py::ssize_t m = 0; m < count; ++m) {
+    distances.features[m].distance = d.at(m);
+    distances.features[m].normal = Eigen::Map<const Vector3>(n.data() + 3 * m);
+    distances.features[m].obstacle_velocity = Eigen::Map<const Vector3>(v.data() + 3 * m);
+  }
   Features features;
-  features.take(view, static_cast<int>(g.shape(1)), false);
+  features.take(distances, static_cast<int>(g.shape(1)), false);
   for (int m = 0; m < features.size(); ++m) {
     for (int agent = 0; agent < features.agents(); ++agent) {
       features.gradient(m, agent) = Eigen::Map<const Vector3>(g.data(m, agent, 0));
@@ -102,7 +104,7 @@ void bindGradients(py::module_& module) {
           "features",
           [](BoundDifferences& b, const py::object& seen) {
             Features features;
-            b.differences.takeGradients(b.read(seen).distances, features);
+            b.differences.takeGradients(*b.read(seen).distances, features);
             return features;
           },
           py::arg("observation"), "All features of copy 0, each with the rates of its own material point.")
@@ -110,7 +112,7 @@ void bindGradients(py::module_& module) {
           "minimum",
           [](BoundDifferences& b, const py::object& seen) {
             Features features;
-            b.differences.takeMinimum(b.read(seen).distances, features);
+            b.differences.takeMinimum(*b.read(seen).distances, features);
             return features;
           },
           py::arg("observation"), "The nearest feature of copy 0 with the rates of the minimum distance.");

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "distances_binding.h"
+
 namespace py = pybind11;
 using deformable_manipulation::control::findFault;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -93,18 +95,12 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
 }
 
 void ObservationReader::readDistances(const py::handle& distances) {
-  const py::array distance = arrayOf(distances, "distance", "distances.distance", "fiu");
-  requireShape(distance, "distances.distance", {distance.size()});
-  const Shape vectors = {distance.size(), 3};
-  deformable_manipulation::control::DistancesView& view = view_.distances;
-  view.features = static_cast<int>(distance.size());
-  view.distance = numbers(distances, "distance", "distances.distance", {distance.size()});
-  view.minimum = numbers(distances, "minimum", "distances.minimum", {view_.copies});
-  view.offsets = indices(distances, "offsets", "distances.offsets", {view_.copies + 1});
-  view.normal = numbers(distances, "normal", "distances.normal", vectors);
-  view.vertices = indices(distances, "vertices", "distances.vertices", vectors);
-  view.weights = numbers(distances, "weights", "distances.weights", vectors);
-  view.obstacle_velocity = numbers(distances, "obstacle_velocity", "distances.obstacle_velocity", vectors);
+  if (!py::isinstance<NamedDistances>(distances)) {
+    throw Unusable{std::string("distances of the state is ") + Py_TYPE(distances.ptr())->tp_name +
+                   ", expected Distances"};
+  }
+  view_.distances = &distances.cast<const NamedDistances&>().distances;
+  owner_ = py::reinterpret_borrow<py::object>(distances);
 }
 
 const double* ObservationReader::numbers(const py::handle& owner, const char* key, const char* name,

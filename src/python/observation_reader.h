@@ -27,7 +27,8 @@ class ObservationReader {
   const int* indices(const pybind11::handle& owner, const char* key, const char* name, const Shape& shape);
 
   deformable_manipulation::control::ObservationView view_;
-  std::vector<pybind11::object> arrays_;     // that the view looks at
+  pybind11::object owner_;                   // of the distances that the view looks at
+  std::vector<pybind11::object> arrays_;     // that it looks at
   std::vector<std::vector<int>> converted_;  // indices that it looks at
   std::size_t conversions_ = 0;
 };

@@ -17,15 +17,6 @@ using namespace deformable_manipulation::control;
 
 namespace {
 
-Tier toTier(const std::string& name) {
-  const std::array<const char*, TIERS> names = {"collision", "overstretch", "proximity", "anticipation"};
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw py::value_error("'" + name + "' is no kind of constraint");
-  }
-  return static_cast<Tier>(found - names.begin());
-}
-
 //! Rows with their components known from the start.
 ConstraintRows makeRows(int components) {
   ConstraintRows rows;
@@ -48,9 +39,9 @@ py::object solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& linear, 
   return py::cast(solver.solution());
 }
 
-std::unique_ptr<SafetyFilter> makeFilter(const Eigen::VectorXd& weights, const std::vector<std::string>& priority,
-                                         bool relaxation, const py::object& solver) {
-  auto filter = std::make_unique<SafetyFilter>(weights, toPriority(priority), relaxation);
+std::unique_ptr<SafetyFilter> makeFilter(const Eigen::VectorXd& weights, const Priority& priority, bool relaxation,
+                                         const py::object& solver) {
+  auto filter = std::make_unique<SafetyFilter>(weights, priority, relaxation);
   if (!solver.is_none()) {
     filter->setSolver(solverFromPython(solver));
   }
@@ -58,13 +49,6 @@ std::unique_ptr<SafetyFilter> makeFilter(const Eigen::VectorXd& weights, const s
 }
 
 }  // namespace
-
-Priority toPriority(const std::vector<std::string>& names) {
-  if (names.size() != LIMIT_TIERS) {
-    throw py::value_error("priority: allowed is an order of collision, overstretch and proximity");
-  }
-  return {toTier(names[0]), toTier(names[1]), toTier(names[2])};
-}
 
 QpSolver solverFromPython(const py::object& solver) {
   return [solver](const QuadraticProgram& program, Eigen::VectorXd& x) {
@@ -91,21 +75,21 @@ void bindQuadraticProgram(py::module_& module) {
       .def("__len__", &ConstraintRows::size)
       .def(
           "add",
-          [](ConstraintRows& rows, Tier tier, const Eigen::VectorXd& coefficients, double bound) {
+          [](ConstraintRows& rows, int kind, const Eigen::VectorXd& coefficients, double bound) {
             if (coefficients.size() != rows.components()) {
               throw py::value_error("coefficients must have " + std::to_string(rows.components()) + " components");
             }
-            rows.add(tier, bound) = coefficients;
+            rows.add(kind, bound) = coefficients;
           },
-          py::arg("tier"), py::arg("coefficients"), py::arg("bound"), "Adds a row; bound in m/s.")
+          py::arg("kind"), py::arg("coefficients"), py::arg("bound"), "Adds a row of a kind; bound in m/s.")
       .def_property_readonly(
-          "tiers",
+          "kinds",
           [](const ConstraintRows& rows) {
-            std::vector<Tier> tiers;
+            std::vector<int> kinds;
             for (int row = 0; row < rows.size(); ++row) {
-              tiers.push_back(rows.tier(row));
+              kinds.push_back(rows.kind(row));
             }
-            return tiers;
+            return kinds;
           },
           "Of each row.")
       .def_property_readonly(
@@ -131,12 +115,12 @@ void bindQuadraticProgram(py::module_& module) {
   py::class_<SafetyFilter>(
       module, "SafetyFilter",
       "The velocity nearest to the nominal one that rows and bounds allow.\n\n"
-      "weights gamma (n,), positive; priority: of the limits, the last to yield first; relaxation\n"
+      "weights gamma (n,), positive; priority: the limits' kinds 0 to L - 1, the last to yield first (kind L is\n"
+      "anticipation); relaxation\n"
       "False: rows that cannot all hold fail; solver: called with the program's matrices P (n, n), "
       "q, A, b,\ngives x or None. Raises ValueError.")
-      .def(py::init(&makeFilter), py::arg("weights"),
-           py::arg("priority") = std::vector<std::string>{"collision", "overstretch", "proximity"},
-           py::arg("relaxation") = true, py::arg("solver") = py::none())
+      .def(py::init(&makeFilter), py::arg("weights"), py::arg("priority"), py::arg("relaxation") = true,
+           py::arg("solver") = py::none())
       .def(
           "filter",
           [](SafetyFilter& filter, const Eigen::VectorXd& nominal, const ConstraintRows& rows,
@@ -145,5 +129,5 @@ void bindQuadraticProgram(py::module_& module) {
             return py::make_tuple(result.velocity, static_cast<int>(result.status), result.slack);
           },
           py::arg("nominal"), py::arg("rows"), py::arg("lower"), py::arg("upper"),
-          "Velocity (n,) [m/s], status as a number of control.status.Status, slack [m/s] per Tier.");
+          "Velocity (n,) [m/s], status as a number of control.status.Status, slack [m/s] per kind.");
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "deformable_manipulation/parameters/parameter_section.h"
+
 namespace deformable_manipulation {
 namespace control {
 
@@ -11,6 +15,9 @@ class PiecewiseLinearClassK {
   //! @param above, below [1/s] slopes for h >= 0 and for h < 0
   //! @throw std::invalid_argument if a slope is not a positive finite number
   PiecewiseLinearClassK(double above, double below);
+
+  //! Reads [slope for h >= 0, slope for h < 0] at a key.
+  static PiecewiseLinearClassK read(const ParameterSection& section, const std::string& key);
 
   //! alpha(h) [unit of h per second].
   double operator()(double h) const { return (h >= 0.0 ? above_ : below_) * h; }

@@ -6,17 +6,11 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Kinds of constraints. Each kind shares one slack; see SafetyFilter for which of them yields first.
-enum class Tier {
-  COLLISION,
-  OVERSTRETCH,
-  PROXIMITY,
-  ANTICIPATION  //!< wishes for later rather than limits: always the first to yield
-};
-constexpr int TIERS = 4;
-constexpr int LIMIT_TIERS = 3;  //!< those that are limits
-
 //! Constraints coefficients . u >= bound on a velocity u of any number of components.
+//!
+//! Each row is of a kind: with L barriers, 0 to L - 1 are their limits, in the team's order, and L is anticipation:
+//! wishes for later rather than limits, always the first to yield. The rows of a kind share one slack, see
+//! SafetyFilter.
 //!
 //! Keeps its memory from one cycle to the next.
 class ConstraintRows {
@@ -26,7 +20,7 @@ class ConstraintRows {
   //! Starts afresh, for velocities of so many components.
   void clear(int components) {
     components_ = components;
-    tiers_.clear();
+    kinds_.clear();
     bounds_.clear();
     coefficients_.clear();
   }
@@ -34,22 +28,22 @@ class ConstraintRows {
   //! Adds a row.
   //! @param bound [m/s]
   //! @return its coefficients [components], zeros to be filled in before the next row is added
-  Eigen::Map<Eigen::VectorXd> add(Tier tier, double bound) {
-    tiers_.push_back(tier);
+  Eigen::Map<Eigen::VectorXd> add(int kind, double bound) {
+    kinds_.push_back(kind);
     bounds_.push_back(bound);
     coefficients_.resize(coefficients_.size() + components_, 0.0);
     return {coefficients_.data() + (size() - 1) * components_, components_};
   }
 
-  int size() const { return static_cast<int>(tiers_.size()); }
+  int size() const { return static_cast<int>(kinds_.size()); }
   int components() const { return components_; }
-  Tier tier(int row) const { return tiers_[row]; }
+  int kind(int row) const { return kinds_[row]; }
   double bound(int row) const { return bounds_[row]; }
   Coefficients coefficients(int row) const { return {coefficients_.data() + row * components_, components_}; }
 
  private:
   int components_ = 0;
-  std::vector<Tier> tiers_;
+  std::vector<int> kinds_;
   std::vector<double> bounds_;
   std::vector<double> coefficients_;  // [rows x components]
 };

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
 #include <limits>
+#include <vector>
 
-#include "deformable_manipulation/control/constraint_rows.h"
 #include "deformable_manipulation/control/status.h"
 #include "deformable_manipulation/pbd/types.h"
 
@@ -26,15 +25,16 @@ struct Decision {
   Vector3 position = Vector3::Constant(UNKNOWN);  //!< [m] own held point
   Vector3 target = Vector3::Constant(UNKNOWN);    //!< [m] leader plus reference
   double distance = UNKNOWN;                      //!< [m] signed minimum of the object; infinite: no obstacle
-  double h_collision = UNKNOWN;                   //!< [m] distance minus offset
-  double h_overstretch = UNKNOWN;                 //!< [m] the lowest over the other agents
-  double h_proximity = UNKNOWN;                   //!< [m] the lowest over the other agents
+  std::vector<double> h;                          //!< [m] the lowest of each barrier, in the team's order
   Vector3 jacobian = Vector3::Constant(UNKNOWN);  //!< [1] d distance / d position
   bool exact_jacobian = false;                    //!< from the equilibrium; false: from perturbed copies
   double leader_drift = UNKNOWN;                  //!< [m/s] change of the distance by the leader's motion
   int rows = 0;                                   //!< of the barriers
-  std::array<double, TIERS> slack = {};           //!< [m/s] by how much the rows of each tier are missed at most
+  std::vector<double> slack;                      //!< [m/s] by how much the rows of each barrier are missed at most
   double solve_time = 0.0;                        //!< [s] of the safety filter
+
+  //! Starts afresh, for so many barriers; keeps its memory.
+  void clear(int barriers);
 };
 
 }  // namespace control

@@ -35,10 +35,10 @@ class Differences {
 
   //! All features of copy 0, each with the rates of its own material point: as that of a locally nearest pair,
   //! its distance changes with the points' motion along the normal, g[m, a, j] = normal . dX_m / dp_aj.
-  void takeGradients(const DistancesView& distances, Features& features) const;
+  void takeGradients(const distance::Distances& distances, Features& features) const;
 
   //! The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6).
-  void takeMinimum(const DistancesView& distances, Features& features) const;
+  void takeMinimum(const distance::Distances& distances, Features& features) const;
 
  private:
   using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;

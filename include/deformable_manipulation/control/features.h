@@ -16,7 +16,7 @@ class Features {
  public:
   //! Starts afresh, with the first features of copy 0 and gradients of zero.
   //! @param nearest_only the feature of the minimum alone
-  void take(const DistancesView& distances, int agents, bool nearest_only);
+  void take(const distance::Distances& distances, int agents, bool nearest_only);
 
   //! Gives the leader the rest of the normals.
   void completeLeader(int leader);

@@ -3,12 +3,21 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "deformable_manipulation/control/barrier.h"
 #include "deformable_manipulation/control/class_k.h"
-#include "deformable_manipulation/control/constraint_rows.h"
-#include "deformable_manipulation/control/situation.h"
 
 namespace deformable_manipulation {
 namespace control {
+
+//! What keeps a pair of agents within a limit of their distance.
+struct PairParameters {
+  Eigen::MatrixXd limits;  //!< [A x A] m, between any two agents, symmetric; the diagonal is not used
+  double margin;           //!< [m] by which the rows stay within the limits
+  PiecewiseLinearClassK alpha;
+
+  //! Reads the section of a barrier on pairs.
+  static PairParameters read(const ParameterSection& section);
+};
 
 //! A barrier on the distance r between the held point i of each commanded assistant and each other one j.
 //!
@@ -34,42 +43,30 @@ namespace control {
 //!
 //! Coincident held points have no direction; a fixed one is taken instead, along x from the agent of the
 //! lower index to the other, so that both agents take opposite ones.
-class PairBarrier {
+class PairBarrier : public Barrier {
  public:
-  enum class Kind { OVERSTRETCH, PROXIMITY };
+  enum class Kind { MAXIMUM, MINIMUM };
 
-  //! @param commanded indices of the assistants whose velocities the rows are of, in their order
-  //! @param leader index of the leader
-  //! @param limits [A x A] m, distances to keep to, symmetric; the diagonal is not used
-  //! @param margin [m] by which the rows stay within the limits
-  PairBarrier(Kind kind, std::vector<int> commanded, int leader, Eigen::MatrixXd limits, double margin,
-              PiecewiseLinearClassK alpha, bool shares = true);
+  PairBarrier(Kind kind, const PairParameters& parameters, const Team& team);
 
   //! What is left of the limit between two agents [m], for the held points [A]; without the margin.
   double value(const std::vector<Vector3>& positions, int agent, int other) const;
 
-  //! The least value of an agent over all others [m]; infinite if there is none.
-  double lowest(const std::vector<Vector3>& positions, int agent) const;
+  //! The least of an agent over all others [m].
+  double value(const PresentState& state, int agent) const override;
 
   //! d value / d held point of the agent, a unit vector.
   Vector3 gradient(const std::vector<Vector3>& positions, int agent, int other) const;
 
   //! Adds one constraint for each pair of agents of which one is commanded.
-  void addRows(const Situation& situation, ConstraintRows& rows) const;
+  void addRows(const Features& features, const PredictedState& state, BarrierRows& rows) const override;
 
  private:
-  int agents() const { return static_cast<int>(limits_.rows()); }
-  int columnOf(int agent) const;
-  void addRow(const Situation& situation, int column, int other, ConstraintRows& rows) const;
+  void addRow(const PredictedState& state, int column, int other, BarrierRows& rows) const;
 
-  Tier tier_;
   double sign_;  // +1: stay farther than the limit, -1: stay nearer
-  std::vector<int> commanded_;
-  int leader_;
-  Eigen::MatrixXd limits_;
-  double margin_;
-  PiecewiseLinearClassK alpha_;
-  bool shares_;
+  PairParameters parameters_;
+  Team team_;
 };
 
 }  // namespace control

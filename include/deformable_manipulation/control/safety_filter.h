@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "deformable_manipulation/control/constraint_rows.h"
@@ -18,15 +17,14 @@ constexpr double VELOCITY_TOLERANCE = 1e-6;
 //! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
 constexpr double ANTICIPATION_WEIGHT = 10.0;
 
-//! Which of the limits yields to which: the first is the last to yield.
-using Priority = std::array<Tier, LIMIT_TIERS>;
-constexpr Priority DEFAULT_PRIORITY = {Tier::COLLISION, Tier::OVERSTRETCH, Tier::PROXIMITY};
+//! Which of the L limits yields to which, by their kinds 0 to L - 1: the first is the last to yield.
+using Priority = std::vector<int>;
 
 //! Result of the safety filter.
 struct Filtered {
-  Eigen::VectorXd velocity;              //!< [n] m/s always finite and within the bounds, or zero if FAILED
-  Status status = Status::FAILED;        //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
-  std::array<double, TIERS> slack = {};  //!< [m/s] by how much the rows of each tier are missed at most
+  Eigen::VectorXd velocity;        //!< [n] m/s always finite and within the bounds, or zero if FAILED
+  Status status = Status::FAILED;  //!< NOMINAL, CONSTRAINED, RELAXED or FAILED
+  std::vector<double> slack;       //!< [L + 1] m/s by how much the rows of each kind are missed at most
   int rows = 0;
   bool rows_act = false;  //!< the bounds alone would allow another velocity
 };
@@ -34,19 +32,21 @@ struct Filtered {
 //! The velocity nearest to the nominal one that the constraints allow.
 //!
 //! min 1/2 |diag(weights) (u - nominal)|^2 subject to rows and bounds (paper, eq. 13). The bounds always hold.
-//! The rows of a tier share one slack s_t >= 0:
+//! The rows of a kind share one slack s_t >= 0:
 //!
 //!   min 1/2 |diag(weights) (u - nominal)|^2 + sum_t (c_t s_t + r_t s_t^2 / 2),
-//!   rows of tier t: g . u >= min(b, most that g . u reaches within the bounds) - s_t.
+//!   rows of kind t: g . u >= min(b, most that g . u reaches within the bounds) - s_t.
 //!
-//! For limits the linear penalty makes a slack exactly zero wherever its tier can hold; the quadratic one,
-//! r = max(weights)^2, only makes the cost positive definite. The costs c_t are a factor of 100 apart in the
-//! order of the priority, rather than strictly lexicographic: a strict order would spend all of a lower tier
-//! on a gain of a micrometre per second in a higher one, which a row of nearly no gradient asks for. So a tier
-//! yields to a lower one only where it would cost that one more than a hundredfold. ANTICIPATION has the
-//! quadratic penalty alone: it pulls, the more the farther it is missed, and never stands against a limit.
+//! For limits the linear penalty makes a slack exactly zero wherever its kind can hold; the quadratic one,
+//! r = max(weights)^2, only makes the cost positive definite. The costs c_t are apart by the same factor from one
+//! limit to the next in the order of the priority, a hundred for three limits, rather than strictly lexicographic: a
+//! strict order would spend all of a lower limit on a gain of a micrometre per second in a higher one, which a row of
+//! nearly no gradient asks for. So a limit yields to a lower one only where it would cost that one more than so many
+//! times. Their range is fixed, so that any number of limits can be told apart without harm to the solution's
+//! precision. Anticipation has the quadratic penalty alone: it pulls, the more the farther it is missed, and never
+//! stands against a limit.
 //!
-//! Taking the minimum keeps a row that no velocity can satisfy from loosening the others of its tier; what it
+//! Taking the minimum keeps a row that no velocity can satisfy from loosening the others of its kind; what it
 //! lacks shows in the reported slack. But of two rows of a limit that pull against each other the one that asks for
 //! more, in multiples of what the bounds allow, yields that much less: the coefficient of its s_t is less than one.
 //! Else, both out of reach, they would hold each other at the velocity in the middle of the bounds, for ever.
@@ -59,8 +59,7 @@ class SafetyFilter {
   //! @param priority of the limits
   //! @param relaxation false: rows that cannot all hold give FAILED (the paper)
   //! @throw std::invalid_argument if a weight is not positive and finite, or the priority is no order of the limits
-  explicit SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority = DEFAULT_PRIORITY,
-                        bool relaxation = true);
+  SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority, bool relaxation);
 
   SafetyFilter(const SafetyFilter&) = delete;
   SafetyFilter& operator=(const SafetyFilter&) = delete;
@@ -75,7 +74,7 @@ class SafetyFilter {
   void setSolver(QpSolver solver) { solver_ = std::move(solver); }
 
   //! @param nominal, lower, upper [n] m/s
-  //! @param rows of n components
+  //! @param rows of n components, of the kinds 0 to L
   //! @return valid until the next call; FAILED with zero velocity if a number is not finite, the bounds are
   //! crossed, or the solver gives no valid solution
   const Filtered& filter(const Eigen::VectorXd& nominal, const ConstraintRows& rows, const Eigen::VectorXd& lower,
@@ -93,6 +92,8 @@ class SafetyFilter {
   bool holds(const Given& given) const;
   void formulate(const Given& given);
   void measureDemands(const Given& given);
+  int kinds() const { return static_cast<int>(penalties_.size()); }
+  bool isLimit(int kind) const { return penalties_[kind] > 0.0; }
   double yielding(const Given& given, int row) const;
   void addRow(const Given& given, int row);
   void addBounds(const Given& given);
@@ -100,8 +101,8 @@ class SafetyFilter {
   bool isValid() const;
   bool measureSlack(const Given& given);
 
-  Eigen::VectorXd squares_;  // [n] of the weights, the largest 1: only their ratios matter
-  std::array<double, TIERS> penalties_;
+  Eigen::VectorXd squares_;        // [n] of the weights, the largest 1: only their ratios matter
+  std::vector<double> penalties_;  // [L + 1] of the kinds' slacks; of anticipation zero
   bool relaxation_;
   double anticipation_ = ANTICIPATION_WEIGHT;
   QpSolver solver_;

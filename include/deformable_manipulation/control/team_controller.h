@@ -1,14 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "deformable_manipulation/control/collision_barrier.h"
+#include "deformable_manipulation/control/barrier.h"
+#include "deformable_manipulation/control/controller_parameters.h"
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
-#include "deformable_manipulation/control/formulation.h"
 #include "deformable_manipulation/control/observation.h"
-#include "deformable_manipulation/control/pair_barrier.h"
 #include "deformable_manipulation/control/response_gradients.h"
 #include "deformable_manipulation/control/safety_filter.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
@@ -16,40 +16,12 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! What keeps a pair of agents within its limits.
-struct PairParameters {
-  Eigen::MatrixXd limits;  //!< [A x A] m, between any two agents, symmetric; the diagonal is not used
-  double margin = 0.0;     //!< [m] by which the rows stay within the limits
-  PiecewiseLinearClassK alpha{1.0, 2.0};
-};
-
-struct ControllerParameters {
-  std::vector<int> commanded;         //!< indices of the M assistants to command, among the A agents
-  int leader = 0;                     //!< index of the leader
-  std::vector<int> assistants;        //!< indices of all assistants
-  std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
-  double cycle_time = 0.01;           //!< [s]
-  double gain = 1.0;                  //!< [1/s]
-  Vector3 weights = Vector3::Ones();  //!< cost of departing from the nominal velocity per axis
-  double max_velocity = 0.15;         //!< [m/s] of every component
-  double max_acceleration = 1.0;      //!< [m/s^2] of every component
-  double smoothing = 0.0;             //!< [s] time constant of a departure from the nominal velocity; 0: none
-  double timeout = 0.2;               //!< [s] a state older than the last by more means that time was set back
-  bool exact_gradients = false;       //!< from the response, where it is known
-  bool safety = true;                 //!< false: the nominal velocity within its limits
-  Formulation formulation;
-  Priority priority = DEFAULT_PRIORITY;
-  CollisionParameters collision;
-  PairParameters overstretch;
-  PairParameters proximity;
-};
-
 //! Lets assistants follow the leader at fixed relative positions, as far as the barriers allow.
 //!
 //! One program over the velocities of all M assistants that it commands. With M = 1, a controller for each assistant
 //! on its own observations alone, this is decentralised control: constraints between assistants are shared. With all
 //! assistants commanded together it is centralised: each constraint is whole, and met by whoever meets it at the least
-//! departure from the nominal velocities.
+//! departure from the nominal velocities. What the limits are is told by a list of barriers.
 //!
 //! The command computed from state k acts from state k + 1 to k + 2. So everything is predicted for state
 //! k + 1 to first order (for a later one where the observation says that the answer is late): the own held points move
@@ -73,6 +45,9 @@ class TeamController {
   //! False answers every state with zero velocity for this assistant; the others reckon with that.
   void setEnabled(int member, bool enabled) { members_[member].enabled = enabled; }
   bool isEnabled(int member) const { return members_[member].enabled; }
+
+  //! The least h of each barrier for an assistant in any state, without margins, in the order of the parameters.
+  std::vector<double> margins(int member, const PresentState& state) const;
 
   //! Goes on with other gains, limits and margins of the same agents; formulation, priority and solver stay as they
   //! were made. @throw std::invalid_argument if they cannot be used; nothing changes then
@@ -124,9 +99,7 @@ class TeamController {
   void conclude();
 
   ControllerParameters parameters_;
-  CollisionBarrier collision_;
-  PairBarrier overstretch_;
-  PairBarrier proximity_;
+  std::vector<std::unique_ptr<Barrier>> barriers_;
   VelocityEstimator velocities_;
   Differences differences_;
   SafetyFilter filter_;
@@ -135,8 +108,8 @@ class TeamController {
   std::vector<Decision> decisions_;  // [M]
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered
-  std::vector<Vector3> positions_;
-  Situation situation_;
+  PresentState present_;
+  PredictedState predicted_;
   Features features_;
   ConstraintRows rows_;
   double kept_ = 0.0;        // part of a departure that is kept for the next cycle

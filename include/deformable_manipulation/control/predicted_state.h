@@ -13,7 +13,7 @@ using pbd::Vector3;
 //!
 //! The command computed from state k acts from state k + 1 on, or later if the answer is late. Until then, for `delay`
 //! seconds, the own agent moves with its previous command and the others with their measured velocities.
-struct Situation {
+struct PredictedState {
   std::vector<Vector3> positions;   //!< [A] m, held points when the command begins to act
   std::vector<Vector3> velocities;  //!< [A] m/s, from state k to then; expected to last
   int leader = 0;

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deformable_manipulation/control/constraint_rows.h"
+#include "deformable_manipulation/control/features.h"
+#include "deformable_manipulation/control/predicted_state.h"
+#include "deformable_manipulation/control/team.h"
+#include "deformable_manipulation/parameters/parameter_section.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! What a barrier's value is taken of.
+struct PresentState {
+  std::vector<Vector3> positions;  //!< [A] m, held points
+  double distance;                 //!< [m] signed minimum of the object; infinite: no obstacle
+};
+
+//! The rows of one barrier: they share its slack.
+class BarrierRows {
+ public:
+  //! @param kind of the barrier's rows, see ConstraintRows
+  //! @param anticipation kind of the rows that are wishes for later
+  BarrierRows(ConstraintRows& rows, int kind, int anticipation)
+      : rows_(rows), kind_(kind), anticipation_(anticipation) {}
+
+  //! Adds coefficients . u >= bound [m/s] as a limit.
+  //! @return the coefficients [3 M], zeros to be filled in before the next row is added
+  Eigen::Map<Eigen::VectorXd> limit(double bound) { return rows_.add(kind_, bound); }
+
+  //! The same as a wish, which yields to every limit.
+  Eigen::Map<Eigen::VectorXd> anticipate(double bound) { return rows_.add(anticipation_, bound); }
+
+ private:
+  ConstraintRows& rows_;
+  int kind_;
+  int anticipation_;
+};
+
+//! Keeps quantities h from becoming negative, by constraints dh/dt >= -alpha(h) on the commanded velocities.
+//!
+//! A barrier is two files in barriers/, found by their names at build time, and a declaration of its parameters in
+//! Python; CONTRIBUTING.md shows the way.
+class Barrier {
+ public:
+  virtual ~Barrier() = default;
+
+  //! The least h of an agent [m, or the barrier's own unit], without margins; infinite where nothing limits it.
+  virtual double value(const PresentState& state, int agent) const = 0;
+
+  //! Adds the constraints on the velocities of the commanded assistants.
+  virtual void addRows(const Features& features, const PredictedState& state, BarrierRows& rows) const = 0;
+};
+
+//! Makes a barrier from its section of the scenario.
+using BarrierMaker = std::function<std::unique_ptr<Barrier>(const ParameterSection& section, const Team& team)>;
+
+//! How to make each barrier that there is, by its name.
+const std::map<std::string, BarrierMaker>& barrierMakers();
+
+}  // namespace control
+}  // namespace deformable_manipulation

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deformable_manipulation/control/safety_filter.h"
+#include "deformable_manipulation/control/team.h"
+#include "deformable_manipulation/parameters/parameter_section.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+using pbd::Vector3;
+
+//! What a controller is made of. Ranges, defaults and meanings of the keys are declared in Python, see
+//! docs/parameters.md; here are only their values.
+struct ControllerParameters {
+  std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
+  double cycle_time;                  //!< [s]
+  bool safety;                        //!< false: the nominal velocity within its limits
+  double gain;                        //!< [1/s]
+  Vector3 weights;                    //!< cost of departing from the nominal velocity per axis
+  double max_velocity;                //!< [m/s] of every component
+  double max_acceleration;            //!< [m/s^2] of every component
+  double smoothing;                   //!< [s] time constant of a departure from the nominal velocity; 0: none
+  double timeout;                     //!< [s] a state older than the last by more means that time was set back
+  bool exact_gradients;               //!< from the response, where it is known
+  Team team;                          //!< who is commanded, and who else there is
+  std::vector<std::string> barriers;  //!< names of the barriers in use, in their order
+  Priority priority;                  //!< of the barriers, by their numbers in that order
+  ParameterValue values;              //!< the section `controller`, of which the barriers read theirs
+
+  //! Reads the section `controller` and what is known of its team.
+  static ControllerParameters read(const ParameterSection& controller, const ParameterSection& team);
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

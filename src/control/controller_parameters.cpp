@@ -1,0 +1,54 @@
+#include "deformable_manipulation/control/controller_parameters.h"
+
+#include <algorithm>
+
+namespace deformable_manipulation {
+namespace control {
+namespace {
+
+Team readTeam(const ParameterSection& controller, const ParameterSection& team) {
+  Team result;
+  result.agents = team.integer("agents");
+  result.leader = team.integer("leader");
+  result.assistants = team.integers("assistants");
+  result.commanded = team.integers("commanded");
+  result.max_velocity = controller.number("max_velocity");
+  result.formulation = Formulation::read(controller);
+  return result;
+}
+
+//! The numbers of the barriers in the order of their names.
+Priority readPriority(const ParameterSection& controller, const std::vector<std::string>& barriers) {
+  Priority priority;
+  for (const std::string& name : controller.texts("priority")) {
+    const auto found = std::find(barriers.begin(), barriers.end(), name);
+    controller.check().require(found != barriers.end(), controller.pathOf("priority"), "'" + name + "'",
+                               "the names of the barriers in use");
+    priority.push_back(static_cast<int>(found - barriers.begin()));
+  }
+  return priority;
+}
+
+}  // namespace
+
+ControllerParameters ControllerParameters::read(const ParameterSection& controller, const ParameterSection& team) {
+  ControllerParameters p;
+  p.references = team.vectors("references");
+  p.cycle_time = team.number("cycle_time");
+  p.safety = team.flag("safety");
+  p.gain = controller.number("gain");
+  p.weights = controller.vector<3>("weights");
+  p.max_velocity = controller.number("max_velocity");
+  p.max_acceleration = controller.number("max_acceleration");
+  p.smoothing = controller.number("smoothing");
+  p.timeout = controller.number("timeout");
+  p.exact_gradients = controller.choice<bool>("jacobian", {{"equilibrium", true}, {"perturbed_copies", false}});
+  p.team = readTeam(controller, team);
+  p.barriers = team.texts("barriers");
+  p.priority = readPriority(controller, p.barriers);
+  p.values = controller.value();
+  return p;
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation
