@@ -12,7 +12,6 @@ from deformable_manipulation._control import PositionFilter
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.observer import Observer
-from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.spec import FabricSpec, KnowledgeSpec, RodSpec, Scenario
 from deformable_manipulation.simulation import make_simulation
 
@@ -38,7 +37,9 @@ class ImperfectController:
         self._answered = 0.0  # s, time of the newest state that came
         self._decisions = controller.wait("no state has come yet")
         self._truths = {
-            scenario.agents[index].name: _Truth(scenario, index) for index in scenario.assistants
+            scenario.agents[index].name: _Truth(scenario, index, controller)
+            for index in scenario.assistants
+            if scenario.agents[index].name in controller.names
         }
 
     def update(self, seen: Observation, truth: Observation) -> Dict[str, Decision]:
@@ -57,22 +58,16 @@ class ImperfectController:
 class _Truth:
     """Puts the true state of an assistant into its decisions."""
 
-    def __init__(self, scenario: Scenario, index: int):
+    def __init__(self, scenario: Scenario, index: int, controller):
         starts = np.array([agent.start for agent in scenario.agents])
-        others = [other for other in range(len(starts)) if other != index]
-        limits = [pair_limits(scenario, index, other) for other in others]
         self._index, self._leader = index, scenario.leader_index
-        self._others = others
+        self._name = scenario.agents[index].name
         self._reference = starts[index] - starts[self._leader]
-        self._offset = scenario.controller.collision.offset
-        self._most = np.array([limit.max_distance for limit in limits])
-        self._least = np.array([limit.min_distance for limit in limits])
+        self._controller = controller
 
     def told(self, decision: Decision, truth: Observation) -> Decision:
-        positions = truth.positions
-        position = positions[self._index]
-        target = positions[self._leader] + self._reference
-        ranges = np.linalg.norm(positions[self._others] - position, axis=1)
+        position = truth.positions[self._index]
+        target = truth.positions[self._leader] + self._reference
         distance = float(truth.distances.minimum[0])
         return dataclasses.replace(
             decision,
@@ -80,9 +75,7 @@ class _Truth:
             target=target,
             error=target - position,
             distance=distance,
-            h_collision=distance - self._offset,
-            h_overstretch=float((self._most - ranges).min()),
-            h_proximity=float((ranges - self._least).min()),
+            h=self._controller.margins(self._name, truth.positions, distance),
         )
 
 

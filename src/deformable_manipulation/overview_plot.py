@@ -110,5 +110,6 @@ def _plot_errors(axis, run: RunData) -> None:
 def _plot_margins(axis, run: RunData) -> None:
     axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
     for series, style in zip(run.assistants, _STYLES * len(run.assistants)):
-        axis.plot(series.time, series.h_overstretch, style, color=COLOURS[2])
+        if "overstretch" in series.h:
+            axis.plot(series.time, series.h["overstretch"], style, color=COLOURS[2])
     axis.set_ylabel("overstretch\nmargin [m]")

@@ -1,5 +1,6 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
+from itertools import cycle
 from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
@@ -30,6 +31,7 @@ BLUE = "#0072B2"
 ORANGE = "#E69F00"
 GREEN = "#009E73"
 VERMILLION = "#D55E00"
+MARGIN_LINES = ((GREEN, "-"), (ORANGE, "-."), (BLUE, "--"), (BLACK, ":"))
 VIOLATION = {"color": VERMILLION, "marker": "v", "markersize": 4, "linestyle": "none"}
 
 # Background where the controller's status is one of these; the tones also differ in grey. The
@@ -75,7 +77,7 @@ def plot_controller(
     """Draw the data plot of one controller of a run.
 
     Panels over a shared time axis: distance to the obstacle with its offset, norm of the tracking
-    error, margins to overstretch and proximity, and every moving component of the nominal and the
+    error, margins of the other barriers, and every moving component of the nominal and the
     commanded velocity. Shading tells what the safety filter did; where a limit is violated, the
     violation is filled and marked at its worst.
 
@@ -162,14 +164,12 @@ def _plot_distance(axis: Axes, run: RunData) -> bool:
 
 
 def _plot_margins(axis: Axes, series: AssistantSeries) -> bool:
-    """Draw both margins between agents; true where one falls below zero."""
+    """Draw all barriers' margins but that of the distance; true where one falls below zero."""
     axis.set_ylabel("margin [m]")
     axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
     violated = False
-    for name, values, colour, style in (
-        ("overstretch", series.h_overstretch, GREEN, "-"),
-        ("proximity", series.h_proximity, ORANGE, "-."),
-    ):
+    between = {name: values for name, values in series.h.items() if name != "collision"}
+    for (name, values), (colour, style) in zip(between.items(), cycle(MARGIN_LINES)):
         margin = np.where(np.isfinite(values), values, np.nan)
         if not np.isnan(margin).all():
             label = _with_lowest(name, margin)

@@ -2,7 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Dict, Optional
+from typing import Dict, Mapping, Optional
 
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
@@ -29,9 +29,7 @@ class RunOutcome:
     completed: bool  # False: the simulation broke down; then only what was until then counts
     problem: str  # why it was not completed, or empty
     min_distance: float  # m; inf: no obstacle
-    distance_violation: float  # m
-    overstretch_violation: float  # m
-    proximity_violation: float  # m
+    violations: Mapping[str, float]  # m, of each barrier, by name
     deadlock: bool  # an assistant stays away from its place though nothing is in the way
     relaxed: int  # quadratic programs
     failed: int
@@ -42,8 +40,11 @@ class RunOutcome:
     shape_error: float  # largest relative change of the object's length
 
     def to_mapping(self) -> Dict[str, object]:
-        """All fields by name."""
-        return dataclasses.asdict(self)
+        """All fields by name, the violations as ``violation_NAME``."""
+        mapping = dataclasses.asdict(self)
+        for name, violation in mapping.pop("violations").items():
+            mapping[f"violation_{name}"] = violation
+        return mapping
 
 
 def assess(
@@ -58,16 +59,15 @@ def assess(
     error = _of_assistants(series, "error_norm")
     constrained = np.isin(status, (Status.CONSTRAINED, Status.RELAXED)).any(axis=0)
     rate = scenario.controller.rate
-    offset = scenario.controller.collision.offset
     lowest = float(distance.min(initial=np.inf))
     return RunOutcome(
         index=index,
         completed=problem is None,
         problem=problem or "",
         min_distance=lowest,
-        distance_violation=max(0.0, offset - lowest),
-        overstretch_violation=_below_zero(_of_assistants(series, "h_overstretch")),
-        proximity_violation=_below_zero(_of_assistants(series, "h_proximity")),
+        violations={
+            name: _below_zero(_of_assistants(series, f"h_{name}")) for name in series.barriers
+        },
         deadlock=_is_deadlocked(scenario, series, error, distance),
         relaxed=int(np.count_nonzero(status == Status.RELAXED)),
         failed=int(np.count_nonzero(status == Status.FAILED)),
@@ -125,7 +125,8 @@ def _is_deadlocked(scenario, series, error, distance) -> bool:
 
 
 def _below_zero(margins: np.ndarray) -> float:
-    return max(0.0, -float(margins.min(initial=np.inf)))
+    """How far the lowest of all margins that are known is below zero."""
+    return max(0.0, -float(np.nanmin(margins, initial=np.inf)))
 
 
 def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:

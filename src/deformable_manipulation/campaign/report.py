@@ -6,8 +6,6 @@ import numpy as np
 
 from deformable_manipulation.campaign.outcome import RunOutcome
 
-LIMITS = ("distance", "overstretch", "proximity")
-
 
 def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, object]:
     """Counts and worst values; lengths in m.
@@ -19,7 +17,7 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, obj
         "runs": len(outcomes),
         "not_completed": len(outcomes) - len(finished),
         "tolerance": tolerance,
-        "violations": {name: _violations(outcomes, name, tolerance) for name in LIMITS},
+        "violations": {name: _violations(outcomes, name, tolerance) for name in _limits(outcomes)},
         "lowest_distance": min((o.min_distance for o in outcomes), default=None),
         "deadlocks": sum(outcome.deadlock for outcome in outcomes),
         "runs_with_relaxed_programs": sum(outcome.relaxed > 0 for outcome in outcomes),
@@ -45,7 +43,7 @@ def worst(outcomes: Sequence[RunOutcome]) -> RunOutcome:
     """The run that is most worth looking at: broken down, then failed, then furthest off limits."""
 
     def badness(outcome: RunOutcome) -> Tuple:
-        violation = max(getattr(outcome, f"{name}_violation") for name in LIMITS)
+        violation = max(outcome.violations.values(), default=0.0)
         return (
             not outcome.completed,
             outcome.failed > 0,
@@ -81,8 +79,13 @@ def describe(summary: Dict[str, object]) -> str:
     return "\n".join(lines)
 
 
+def _limits(outcomes: Sequence[RunOutcome]) -> List[str]:
+    """Names of the barriers in use."""
+    return list(dict.fromkeys(name for outcome in outcomes for name in outcome.violations))
+
+
 def _violations(outcomes, name, tolerance):
-    amounts = [getattr(outcome, f"{name}_violation") for outcome in outcomes]
+    amounts = [outcome.violations.get(name, 0.0) for outcome in outcomes]
     return {
         "runs": sum(amount > tolerance for amount in amounts),
         "worst": max(amounts, default=0.0),

@@ -1,6 +1,7 @@
 """What an assistant's controller decided in one cycle, and on what grounds."""
 
 from dataclasses import dataclass, field
+from typing import Mapping
 
 import numpy as np
 
@@ -13,7 +14,7 @@ def _unknown_vector():
 
 @dataclass(frozen=True)
 class Decision:
-    """One cycle of an assistant's controller; the fields of ControllerState.msg.
+    """One cycle of an assistant's controller; what ControllerState.msg tells.
 
     The command is always finite. Everything else is NaN where it is not known, as while waiting
     for valid input.
@@ -28,16 +29,13 @@ class Decision:
     target: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, leader plus reference
     error: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, target minus position
     distance: float = np.nan  # m, signed minimum of the object; inf: no obstacle
-    h_collision: float = np.nan  # m, distance minus offset
-    h_overstretch: float = np.nan  # m, the lowest over the other agents
-    h_proximity: float = np.nan  # m, the lowest over the other agents
+    h: Mapping[str, float] = field(default_factory=dict)  # the lowest of each barrier [m], by name
     jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
     exact_jacobian: bool = False  # from the equilibrium; False: from perturbed copies
     leader_drift: float = np.nan  # m/s, change of the distance by the leader's motion
     rows: int = 0  # of the barriers
-    slack_collision: float = 0.0  # m/s, how far the rows of each kind are relaxed
-    slack_overstretch: float = 0.0
-    slack_proximity: float = 0.0
+    # m/s, how far the rows of each barrier are relaxed at most, by name
+    slack: Mapping[str, float] = field(default_factory=dict)
     solve_time: float = 0.0  # s, safety filter alone
     computation_time: float = 0.0  # s, whole update
 

@@ -1,80 +1,61 @@
 """The native controller's parameters from a scenario."""
 
-from itertools import combinations
+from typing import Any, Dict, NamedTuple, Sequence
 
 import numpy as np
 
-from deformable_manipulation import _control
-from deformable_manipulation.control.reference_solver import find_solver
-from deformable_manipulation.scenario import pair_limits
+from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.mapping import controller_to_mapping
+from deformable_manipulation.scenario.spec import Scenario
 
 
-def native_parameters(scenario, names, safety):
+class NativeParameters(NamedTuple):
     """What ``_control.TeamController`` is made of.
 
+    Attributes:
+        controller: the scenario's section, each barrier's with what it derives from the object.
+        team: who is commanded, and among whom.
+    """
+
+    controller: Dict[str, Any]
+    team: Dict[str, Any]
+
+
+def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) -> NativeParameters:
+    """The parameters of a controller.
+
     Args:
-        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
+        scenario: the checked scenario.
         names: of the assistants that it commands.
         safety: False leaves the barriers out.
 
     Raises:
-        ValueError: the scenario has no assistant of a name, or the solver is not installed.
+        ValueError: the scenario has no assistant of a name.
     """
-    settings = scenario.controller
     commanded, leader = [_index_of(scenario, name) for name in names], scenario.leader_index
     starts = np.array([each.start for each in scenario.agents], dtype=float)
-    return {
-        "commanded": commanded,
+    team = {
+        "agents": len(scenario.agents),
         "leader": leader,
         "assistants": list(scenario.assistants),
-        "references": list(starts[commanded] - starts[leader]),
+        "commanded": commanded,
+        "references": starts[commanded] - starts[leader],
         "cycle_time": scenario.cycle_time,
-        "gain": settings.gain,
-        "weights": settings.weights,
-        "max_velocity": settings.max_velocity,
-        "max_acceleration": settings.max_acceleration,
-        "smoothing": settings.smoothing,
-        "timeout": settings.timeout,
-        "exact_gradients": settings.jacobian == "equilibrium",
         "safety": safety,
-        "formulation": _formulation(settings),
-        "priority": list(settings.priority),
-        "solver": find_solver(settings.solver),
-        "collision": {
-            "offset": settings.collision.offset,
-            "margin": settings.collision.margin,
-            "speed_margin": settings.collision.speed_margin,
-            "band": settings.collision.band,
-            "alpha": settings.collision.alpha,
-            "anticipation": settings.collision.anticipation,
-        },
-        "overstretch": _pair(settings.overstretch, scenario, "max_distance"),
-        "proximity": _pair(settings.proximity, scenario, "min_distance"),
+        "barriers": list(scenario.controller.barriers),
     }
+    return NativeParameters(_controller(scenario), team)
 
 
-def _formulation(settings):
-    if settings.formulation == "paper":
-        return _control.Formulation.paper()
-    formulation = _control.Formulation()
-    formulation.leader_velocity = settings.feedforward
-    formulation.obstacle_velocity = settings.collision.obstacle_velocity
-    formulation.every_feature = settings.collision.gradient == "features"
-    return formulation
+def _controller(scenario: Scenario) -> Dict[str, Any]:
+    mapping = controller_to_mapping(scenario)
+    for name in scenario.controller.barriers:
+        derive = BARRIERS[name].derive
+        mapping[name].update(derive(scenario.object, scenario.agents, scenario.controller))
+    return mapping
 
 
-def _pair(settings, scenario, name):
-    limits = np.zeros((len(scenario.agents), len(scenario.agents)))
-    for i, j in combinations(range(len(limits)), 2):
-        limits[i, j] = limits[j, i] = getattr(pair_limits(scenario, i, j), name)
-    return {
-        "limits": limits,
-        "margin": settings.margin,
-        "alpha": settings.alpha,
-    }
-
-
-def _index_of(scenario, name):
+def _index_of(scenario: Scenario, name: str) -> int:
     assistants = {scenario.agents[i].name: i for i in scenario.assistants}
     if name not in assistants:
         raise ValueError(

@@ -6,11 +6,11 @@ from deformable_manipulation import _control
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
+from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.scenario.spec import CENTRALISED
+from deformable_manipulation.scenario.controller import CENTRALISED
 
 _STATUSES = sorted(Status)
-_KINDS = ("collision", "overstretch", "proximity")
 
 
 def teams(scenario, names=None):
@@ -48,7 +48,10 @@ class TeamController:
     def __init__(self, scenario, names, safety=True):
         self._safety = safety
         self._members = {name: number for number, name in enumerate(names)}
-        self._native = _control.TeamController(native_parameters(scenario, names, safety))
+        self._barriers = scenario.controller.barriers
+        self._native = _control.TeamController(
+            *native_parameters(scenario, names, safety), find_solver(scenario.controller.solver)
+        )
         self._last = None
 
     @property
@@ -67,13 +70,13 @@ class TeamController:
     def set_parameters(self, scenario):
         """Go on with the gains, limits and margins of another scenario of the same agents.
 
-        What was observed and the references stay, and so do ``formulation``, ``priority`` and
-        ``solver``.
+        What was observed and the references stay, and so do ``formulation``, ``priority``,
+        ``solver`` and which barriers are in use.
 
         Raises:
             ValueError: they cannot be used; nothing changes then.
         """
-        self._native.set_parameters(native_parameters(scenario, self.names, self._safety))
+        self._native.set_parameters(*native_parameters(scenario, self.names, self._safety))
 
     def reset(self):
         """Back to the start: forget all states and take the scenario's references again."""
@@ -107,10 +110,10 @@ class TeamController:
         if fault:
             self._last = self.wait(fault)
             return self._last
-        outcome = self._native.update(observation)
-        if outcome is not None:
-            fault, decisions = outcome
-            self._last = self._decisions(decisions, fault, time.perf_counter() - started)
+        answer = self._native.update(observation)
+        if answer is not None:
+            computation_time = time.perf_counter() - started
+            self._last = self._decisions(answer.decisions, answer.fault, computation_time)
         return self._last
 
     def wait(self, reason):
@@ -125,29 +128,61 @@ class TeamController:
         """
         return self._decisions(self._native.wait(), reason)
 
-    def _decisions(self, outcomes, fault="", computation_time=0.0):
-        lacking = [name for name, outcome in zip(self._members, outcomes) if outcome[0]]
+    def margins(self, name, positions, distance):
+        """The lowest h of each barrier in a state that may be another than the observed one.
+
+        Args:
+            name: of the assistant.
+            positions: (A, 3) held points of all agents [m].
+            distance: signed minimum distance of the object [m].
+
+        Returns:
+            A mapping from the barriers' names [m], without margins.
+        """
+        return self._by_barrier(self._native.margins(self._members[name], positions, distance))
+
+    def _decisions(self, natives, fault="", computation_time=0.0):
+        lacking = [name for name, native in zip(self._members, natives) if native.lacks_copies]
         if lacking:
             fault = f"the state has no ready perturbed copies of {', '.join(lacking)}"
         return {
-            name: self._decision(name, outcome[1:], fault, computation_time)
-            for name, outcome in zip(self._members, outcomes)
+            name: self._decision(native, fault, computation_time)
+            for name, native in zip(self._members, natives)
         }
 
-    def _decision(self, name, outcome, fault, computation_time):
-        number, fields, slacks, solve_time = outcome
-        status = _STATUSES[number]
-        if status is Status.WAITING:
-            text = f"Waits, zero velocity: {fault}."
-        elif status is Status.RELAXED:
-            text = _relaxation(slacks)
-        else:
-            text = status.sentence
+    def _decision(self, native, fault, computation_time):
+        status = _STATUSES[native.status]
+        slack = self._by_barrier(native.slack)
+        position, target = native.position, native.target
         return Decision(
-            status, text, self.is_enabled(name), *fields, *slacks, solve_time, computation_time
+            status=status,
+            text=_sentence(status, fault, slack),
+            enabled=native.enabled,
+            command=native.command,
+            nominal=native.nominal,
+            position=position,
+            target=target,
+            error=target - position,
+            distance=native.distance,
+            h=self._by_barrier(native.h),
+            jacobian=native.jacobian,
+            exact_jacobian=native.exact_jacobian,
+            leader_drift=native.leader_drift,
+            rows=native.rows,
+            slack=slack,
+            solve_time=native.solve_time,
+            computation_time=computation_time,
         )
 
+    def _by_barrier(self, values):
+        return dict(zip(self._barriers, values))
 
-def _relaxation(slacks):
-    amounts = [f"{kind} by {slack:.4f} m/s" for kind, slack in zip(_KINDS, slacks) if slack]
-    return f"{Status.RELAXED.sentence[:-1]}: {', '.join(amounts)}."
+
+def _sentence(status, fault, slack):
+    """The status in words: what is waited for, and what is relaxed."""
+    if status is Status.WAITING:
+        return f"Waits, zero velocity: {fault}."
+    if status is Status.RELAXED:
+        amounts = [f"{name} by {amount:.4f} m/s" for name, amount in slack.items() if amount]
+        return f"{status.sentence[:-1]}: {', '.join(amounts)}."
+    return status.sentence

@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 from deformable_manipulation import _distance
-from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.distance.mesh_files import scaled_mesh
 from deformable_manipulation.distance.planes import PLANE_AXES
 from deformable_manipulation.distance.polygons import check_ring
@@ -61,9 +60,9 @@ class MinimumDistance:
         if problems:
             raise ValueError("\n".join(problems))
         self._obstacles = native
-        self._native = _distance.MinimumDistance(native, margin, band, features)
         self._triangles = None if triangles is None else np.ascontiguousarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
+        self._native = _distance.MinimumDistance(native, margin, band, features, list(self.names))
         #: Sentences about what was mended or ignored in the meshes.
         self.warnings = tuple(
             "obstacle {!r}: {}".format(spec.name, warning)
@@ -94,8 +93,7 @@ class MinimumDistance:
         Raises ValueError where the shape is another, a point is not finite, or a triangle refers
         to a point that there is not.
         """
-        points = checked_points(points)
-        return Distances(*self._native.compute(points, self._triangles), self.names)
+        return self._native.compute(checked_points(points), self._triangles)
 
 
 def checked_points(points):

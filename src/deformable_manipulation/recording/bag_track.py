@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Dict, Optional, Tuple
+from typing import Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from deformable_manipulation.recording.run_data import SERIES_COLUMNS, RunDataError
+from deformable_manipulation.recording.run_data import H_PREFIX, SERIES_COLUMNS, RunDataError
 
 CONTROLLER_STATE = "deformable_manipulation/msg/ControllerState"
 DISTANCES = "deformable_manipulation/msg/Distances"
@@ -16,6 +16,8 @@ DISTANCES = "deformable_manipulation/msg/Distances"
 # The field of ControllerState that holds a column of the time series, where the names differ.
 RENAMED = {"command_x": "velocity_x", "command_y": "velocity_y", "command_z": "velocity_z"}
 CONTROLLER_COLUMNS = ("distance",) + SERIES_COLUMNS
+# Barriers of recordings whose messages have no list of them.
+_FIRST_BARRIERS = ("collision", "overstretch", "proximity")
 
 _key = attrgetter("cycle", "reset_count", "header.stamp.sec", "header.stamp.nanosec")
 _controller_values = attrgetter(*(RENAMED.get(name, name) for name in CONTROLLER_COLUMNS))
@@ -25,6 +27,15 @@ def _distance_values(message) -> Tuple[float]:
     """The distance of copy 0, the object itself."""
     minimum = message.minimum_distances
     return (minimum[0] if len(minimum) else float("nan"),)
+
+
+def _barrier_values(message) -> Dict[str, float]:
+    """The value of each barrier, by the name of its column; none of distances."""
+    if hasattr(message, "barriers"):
+        return {H_PREFIX + name: value for name, value in zip(message.barriers, message.h)}
+    if hasattr(message, H_PREFIX + _FIRST_BARRIERS[0]):
+        return {H_PREFIX + name: getattr(message, H_PREFIX + name) for name in _FIRST_BARRIERS}
+    return {}
 
 
 _EXTRACTORS = {
@@ -80,12 +91,13 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
     typestore = get_typestore(Stores.ROS1_NOETIC)
     typestore.register(get_types_from_msg(connections[0].msgdef.data, msgtype))
     names, extract = _EXTRACTORS[msgtype]
-    received, rows, agent = [], [], ""
+    received, rows, barriers, agent = [], [], [], ""
     try:
         for _, time, data in reader.messages(connections):
             message = typestore.deserialize_ros1(data, msgtype)
             received.append(time)
             rows.append(_key(message) + extract(message))
+            barriers.append(_barrier_values(message))
         if rows and msgtype == CONTROLLER_STATE:
             agent = message.agent
     except AttributeError as error:
@@ -104,5 +116,14 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
         cycle=table[:, 0].astype(np.int64),
         reset_count=table[:, 1].astype(np.int64),
         stamp=table[:, 2].astype(np.int64) * 10**9 + table[:, 3].astype(np.int64),
-        columns={name: table[:, 4 + index] for index, name in enumerate(names)},
+        columns={
+            **{name: table[:, 4 + index] for index, name in enumerate(names)},
+            **_stacked(barriers),
+        },
     )
+
+
+def _stacked(rows: Sequence[Mapping[str, float]]) -> Dict[str, np.ndarray]:
+    """Columns (M,) of all names in the rows; nan where a row lacks one."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}

@@ -10,6 +10,7 @@ import yaml
 
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import (
+    H_PREFIX,
     SERIES_COLUMNS,
     RunData,
     RunDataError,
@@ -31,7 +32,8 @@ def read_folder(folder: Path) -> RunData:
     header, rows = _read_rows(path)
     agents = [name[: -len(STATUS_SUFFIX)] for name in header if name.endswith(STATUS_SUFFIX)]
     wanted = ["time", "distance"]
-    wanted += [f"{agent}.{column}" for agent in agents for column in SERIES_COLUMNS]
+    series = {agent: _series_columns(agent, header) for agent in agents}
+    wanted += [f"{agent}.{column}" for agent in agents for column in series[agent]]
     # Folders of earlier versions have no stretch.
     recorded_stretch = [name for name in ("stretch",) if name in header]
     columns = _select_columns(path, header, rows, wanted + recorded_stretch)
@@ -41,7 +43,7 @@ def read_folder(folder: Path) -> RunData:
             agent,
             columns["time"],
             columns["distance"],
-            {name: columns[f"{agent}.{name}"] for name in SERIES_COLUMNS},
+            {name: columns[f"{agent}.{name}"] for name in series[agent]},
         )
         for agent in agents
     )
@@ -56,6 +58,13 @@ def read_folder(folder: Path) -> RunData:
         valid_stretch=_valid_stretch(summary),
         scenario=_scenario_name(summary, folder / run_files.SCENARIO),
     )
+
+
+def _series_columns(agent: str, header: List[str]) -> List[str]:
+    """Columns of an assistant that its series is made of: fixed ones, and those of its barriers."""
+    start = f"{agent}.{H_PREFIX}"
+    barriers = [name[len(agent) + 1 :] for name in header if name.startswith(start)]
+    return [*SERIES_COLUMNS, *barriers]
 
 
 def _read_summary(path: Path) -> dict:

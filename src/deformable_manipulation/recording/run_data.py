@@ -26,9 +26,7 @@ class AssistantSeries:
     time: np.ndarray  # (M,) s, 0 at cycle 0
     distance: np.ndarray  # (M,) m, of the object itself; inf: no obstacle
     error_norm: np.ndarray  # (M,) m
-    h_collision: np.ndarray  # (M,) m
-    h_overstretch: np.ndarray  # (M,) m
-    h_proximity: np.ndarray  # (M,) m
+    h: Mapping[str, np.ndarray]  # (M,) m, the lowest of each barrier, by name
     nominal_velocity: np.ndarray  # (M, 3) m/s
     command: np.ndarray  # (M, 3) m/s
     target: np.ndarray  # (M, 3) m, the place that it would keep
@@ -98,9 +96,11 @@ def make_assistant_series(
         time=time,
         distance=distance,
         error_norm=columns["error_norm"],
-        h_collision=columns["h_collision"],
-        h_overstretch=columns["h_overstretch"],
-        h_proximity=columns["h_proximity"],
+        h={
+            name[len(H_PREFIX) :]: values
+            for name, values in columns.items()
+            if name.startswith(H_PREFIX)
+        },
         nominal_velocity=_stack(columns, "nominal_velocity"),
         command=_stack(columns, "command"),
         target=_stack(columns, "target"),
@@ -108,9 +108,11 @@ def make_assistant_series(
     )
 
 
-# Columns of an assistant in the time series that make_assistant_series needs.
+H_PREFIX = "h_"  # of the columns with the barriers' values
+
+# Columns of an assistant in the time series that make_assistant_series needs, beside those.
 SERIES_COLUMNS = (
-    ("error_norm", "h_collision", "h_overstretch", "h_proximity", "status")
+    ("error_norm", "status")
     + vector_columns("nominal_velocity")
     + vector_columns("command")
     + vector_columns("target")
@@ -118,8 +120,10 @@ SERIES_COLUMNS = (
 
 
 def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
-    """The collision offset [m] behind the recorded barrier values: distance - h_collision."""
-    differences = [series.distance - series.h_collision for series in assistants]
+    """The collision offset [m] behind the recorded barrier values: distance - h."""
+    differences = [
+        series.distance - series.h["collision"] for series in assistants if "collision" in series.h
+    ]
     values = np.concatenate(differences) if differences else np.empty(0)
     finite = values[np.isfinite(values)]
     return float(np.median(finite)) if finite.size else None

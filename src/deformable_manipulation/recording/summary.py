@@ -9,6 +9,7 @@ import numpy as np
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
+from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.stretch import largest_stretch, valid_stretch
 
@@ -19,7 +20,7 @@ def summarise(
     """The numbers of a run; None where there is none (no obstacle, nothing recorded).
 
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
-    ``max_stretch`` the largest relative change of length anywhere in it; where that is more than
+    ``min_margin`` the lowest h of each barrier, ``max_stretch`` the largest relative change of length anywhere in it; where that is more than
     what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
     Lengths are in m, times in s unless the key says ms. Of ``timing``, ``solver`` is one quadratic
     program where the nominal velocity alone would not do.
@@ -43,8 +44,9 @@ def summarise(
         "max_stretch": max_stretch,
         "valid_stretch": valid,
         "shape_valid": max_stretch is None or max_stretch <= valid,
-        "min_stretch_margin": _lowest(_of_assistants(series, "h_overstretch")),
-        "min_proximity_margin": _lowest(_of_assistants(series, "h_proximity")),
+        "min_margin": {
+            name: _lowest(_of_assistants(series, f"h_{name}")) for name in series.barriers
+        },
         "tracking_error": {
             name: _error_statistics(series.column(name + ".error_norm"))
             for name in series.assistants
@@ -75,9 +77,11 @@ def describe(summary: dict) -> str:
             _millimetres(summary["min_distance"]), _millimetres(summary["offset"])
         ),
         "worst violation          {}".format(_millimetres(summary["worst_violation"])),
-        "lowest stretch margin    {}".format(_millimetres(summary["min_stretch_margin"])),
-        "lowest proximity margin  {}".format(_millimetres(summary["min_proximity_margin"])),
     ]
+    for name, margin in summary["min_margin"].items():
+        if name != "collision":  # told as distance
+            label = "lowest {}".format(BARRIERS[name].margin)
+            lines.append("{:25}{}".format(label, _millimetres(margin)))
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import IO, List, Mapping, NamedTuple, Tuple
+from typing import IO, List, Mapping, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -20,19 +20,24 @@ def vector_columns(name: str) -> Tuple[str, ...]:
 
 RUN_COLUMNS = ("cycle", "time", "distance", "stretch")
 AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
-ASSISTANT_COLUMNS = (
-    vector_columns("target")
-    + vector_columns("error")
-    + ("error_norm",)
-    + vector_columns("nominal_velocity")
-    + vector_columns("command")
-    + ("h_collision", "h_overstretch", "h_proximity")
-    + vector_columns("jacobian")
-    + ("exact_jacobian", "leader_drift", "slack_collision", "slack_overstretch", "slack_proximity")
-    + ("status", "rows", "solve_time")
-)
 # Kept beside the columns of the file: they describe the machine, not the run.
 TIMING_COLUMNS = ("simulation", "distance", "controller")
+
+
+def assistant_columns(barriers: Sequence[str]) -> Tuple[str, ...]:
+    """Names of an assistant's columns, for the barriers in use."""
+    return (
+        vector_columns("target")
+        + vector_columns("error")
+        + ("error_norm",)
+        + vector_columns("nominal_velocity")
+        + vector_columns("command")
+        + tuple(f"h_{name}" for name in barriers)
+        + vector_columns("jacobian")
+        + ("exact_jacobian", "leader_drift")
+        + tuple(f"slack_{name}" for name in barriers)
+        + ("status", "rows", "solve_time")
+    )
 
 
 class CycleTimings(NamedTuple):
@@ -71,16 +76,25 @@ class TimeSeries:
         """An empty table for a run of a scenario."""
         names = tuple(agent.name for agent in scenario.agents)
         assistants = tuple(names[index] for index in scenario.assistants)
-        return cls(names, assistants, rows=scenario.cycles)
+        return cls(names, assistants, scenario.controller.barriers, rows=scenario.cycles)
 
-    def __init__(self, agents: Tuple[str, ...], assistants: Tuple[str, ...], rows: int = 0):
+    def __init__(
+        self,
+        agents: Tuple[str, ...],
+        assistants: Tuple[str, ...],
+        barriers: Tuple[str, ...],
+        rows: int = 0,
+    ):
         """``agents`` in the order of the arrays of a CycleRecord; ``rows`` expected."""
         self.assistants = assistants
+        self.barriers = barriers
         self.columns = RUN_COLUMNS + tuple(
             f"{agent}.{column}" for agent in agents for column in AGENT_COLUMNS
         )
         self.columns += tuple(
-            f"{assistant}.{name}" for assistant in assistants for name in ASSISTANT_COLUMNS
+            f"{assistant}.{name}"
+            for assistant in assistants
+            for name in assistant_columns(barriers)
         )
         self._indices = {name: index for index, name in enumerate(self.columns)}
         self._count = 0
@@ -101,7 +115,7 @@ class TimeSeries:
             row += position
             row += velocity
         for name in self.assistants:
-            row += _decision_row(record.decisions[name])
+            row += self._decision_row(record.decisions[name])
         row += record.timings
         self._rows[count] = row
         # Last, so that an interruption within this function leaves whole rows only.
@@ -122,33 +136,28 @@ class TimeSeries:
         rows = self._rows[: self._count, : len(self.columns)]
         file.writelines(row_format % tuple(row) for row in rows.tolist())
 
+    def _decision_row(self, decision: Decision) -> List[float]:
+        """An assistant's decision in the order of assistant_columns()."""
+        error_x, error_y, error_z = decision.error.tolist()
+        return [
+            *decision.target.tolist(),
+            error_x,
+            error_y,
+            error_z,
+            math.sqrt(error_x * error_x + error_y * error_y + error_z * error_z),
+            *decision.nominal.tolist(),
+            *decision.command.tolist(),
+            *(decision.h.get(name, math.nan) for name in self.barriers),
+            *decision.jacobian.tolist(),
+            decision.exact_jacobian,
+            decision.leader_drift,
+            *(decision.slack.get(name, 0.0) for name in self.barriers),
+            decision.status,
+            decision.rows,
+            decision.solve_time,
+        ]
+
     def _allocate(self, rows: int) -> None:
         table = np.empty((rows, len(self.columns) + len(TIMING_COLUMNS)))
         table[: self._count] = self._rows[: self._count]
         self._rows = table
-
-
-def _decision_row(decision: Decision) -> List[float]:
-    """An assistant's decision in the order of ASSISTANT_COLUMNS."""
-    error_x, error_y, error_z = decision.error.tolist()
-    return [
-        *decision.target.tolist(),
-        error_x,
-        error_y,
-        error_z,
-        math.sqrt(error_x * error_x + error_y * error_y + error_z * error_z),
-        *decision.nominal.tolist(),
-        *decision.command.tolist(),
-        decision.h_collision,
-        decision.h_overstretch,
-        decision.h_proximity,
-        *decision.jacobian.tolist(),
-        decision.exact_jacobian,
-        decision.leader_drift,
-        decision.slack_collision,
-        decision.slack_overstretch,
-        decision.slack_proximity,
-        decision.status,
-        decision.rows,
-        decision.solve_time,
-    ]

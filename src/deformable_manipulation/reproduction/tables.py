@@ -8,6 +8,7 @@ from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.reproduction.plan import FULL, VARIANTS, Plan
 
 _NONE = "–"
+_PAIR_BARRIERS = ("overstretch", "proximity")
 _NEGLIGIBLE = 1e-6  # m
 
 
@@ -36,11 +37,8 @@ def safety_table(plan: Plan) -> Table:
             finals = [error["final"] for error in summary["tracking_error"].values()]
             rows.append(
                 (name, title)
-                + tuple(
-                    millimetres(summary[key])
-                    for key in ("offset", "min_distance", "min_stretch_margin")
-                    + ("min_proximity_margin",)
-                )
+                + tuple(millimetres(summary[key]) for key in ("offset", "min_distance"))
+                + tuple(millimetres(summary["min_margin"][name]) for name in _PAIR_BARRIERS)
                 + (str(summary["qp_relaxed"]), str(summary["qp_failed"]))
                 + (millimetres(max(finals, default=None)),)
             )
@@ -72,7 +70,7 @@ def campaign_table(plan: Plan) -> Table:
         path = plan.campaign_folder(name, variant) / "campaign.json"
         summary = json.loads(path.read_text(encoding="utf-8"))["summary"]
         cells = [name, VARIANTS[variant][0], str(summary["runs"])]
-        for kind in ("distance", "overstretch"):
+        for kind in ("collision", "overstretch"):
             violation = summary["violations"][kind]
             cells += [str(violation["runs"]), millimetres(violation["worst"])]
         rows.append((*cells, str(summary["deadlocks"]), str(summary["failed_programs"])))

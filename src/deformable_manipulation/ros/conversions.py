@@ -9,7 +9,9 @@ import math
 import numpy as np
 
 from deformable_manipulation.control.observation import Observation
-from deformable_manipulation.distance.features import NOT_FOLLOWED, Distances
+from deformable_manipulation.distance.features import Distances
+
+PLAIN_BARRIERS = ("collision", "overstretch", "proximity")  # with scalars in ControllerState
 
 
 class MessageError(ValueError):
@@ -154,18 +156,12 @@ def fill_distances(message, state, distances, computation_time, moving=(), poses
     message.obstacle_velocities = distances.obstacle_velocity.ravel() if moving else np.zeros(0)
     message.feature_vertices = distances.vertices.astype(np.uint32).ravel()
     message.feature_weights = distances.weights.ravel()
-    message.feature_identities = _identities(distances)
+    message.feature_identities = distances.identity
     message.moving_obstacles = list(moving)
     message.obstacle_poses = np.ravel(poses)
     message.fault = fault
     message.computation_time = computation_time
     return message
-
-
-def _identities(distances):
-    if distances.identity is None:
-        return np.full(len(distances.distance), NOT_FOLLOWED)
-    return distances.identity
 
 
 def fill_controller_state(message, state, agent, decision):
@@ -191,19 +187,24 @@ def fill_controller_state(message, state, agent, decision):
     for name in (
         "error_norm",
         "distance",
-        "h_collision",
-        "h_overstretch",
-        "h_proximity",
         "leader_drift",
         "rows",
-        "slack_collision",
-        "slack_overstretch",
-        "slack_proximity",
         "solve_time",
         "computation_time",
     ):
         setattr(message, name, getattr(decision, name))
+    _fill_barriers(message, decision)
     return message
+
+
+def _fill_barriers(message, decision):
+    """The barriers' values, as lists and, of those of the paper, as scalars for plotting tools."""
+    message.barriers = list(decision.h)
+    message.h = np.array(list(decision.h.values()), dtype=float)
+    message.slack = np.array(list(decision.slack.values()), dtype=float)
+    for name in PLAIN_BARRIERS:
+        setattr(message, f"h_{name}", decision.h.get(name, math.nan))
+        setattr(message, f"slack_{name}", decision.slack.get(name, 0.0))
 
 
 def to_twist(message, state, velocity):

@@ -12,7 +12,6 @@ from deformable_manipulation.control.status import Status
 
 _SLOW = 0.9  # of the wanted rate, below which it is worth a warning
 _TOO_SLOW = 0.5
-_KINDS = ("collision", "overstretch", "proximity")
 
 
 class Level(IntEnum):
@@ -146,18 +145,19 @@ def _judge_decisions(decisions):
 
 
 def _missed(decisions):
-    slacks = {kind: max(getattr(d, "slack_" + kind) for d in decisions) for kind in _KINDS}
-    missed = {kind: 1e3 * slack for kind, slack in slacks.items() if slack}
-    return ", ".join(f"{kind} missed by {slack:.2f} mm/s at most" for kind, slack in missed.items())
+    missed = {
+        name: 1e3 * slack for name in decisions[-1].slack if (slack := _largest(decisions, name))
+    }
+    return ", ".join(f"{name} missed by {slack:.2f} mm/s at most" for name, slack in missed.items())
 
 
 def _decision_values(decisions):
     values = {"status": decisions[-1].status.name}
-    values["lowest distance [m]"] = _lowest(decisions, "distance")
-    for kind in _KINDS:
-        values[f"lowest h, {kind} [m]"] = _lowest(decisions, "h_" + kind)
-        largest = max(getattr(decision, "slack_" + kind) for decision in decisions)
-        values[f"largest slack, {kind} [m/s]"] = f"{largest:.6f}"
+    values["lowest distance [m]"] = _lowest([decision.distance for decision in decisions])
+    for name in decisions[-1].h:
+        h = [decision.h.get(name, np.nan) for decision in decisions]
+        values[f"lowest h, {name} [m]"] = _lowest(h)
+        values[f"largest slack, {name} [m/s]"] = f"{_largest(decisions, name):.6f}"
     values["error at the end [m]"] = f"{decisions[-1].error_norm:.4f}"
     values["constraints, at most"] = str(max(decision.rows for decision in decisions))
     values.update(_spread("solver", [decision.solve_time for decision in decisions]))
@@ -166,8 +166,13 @@ def _decision_values(decisions):
     return values
 
 
-def _lowest(decisions, name):
-    known = [x for x in (getattr(each, name) for each in decisions) if not np.isnan(x)]
+def _largest(decisions, name):
+    """The largest slack of a barrier [m/s]."""
+    return max(decision.slack.get(name, 0.0) for decision in decisions)
+
+
+def _lowest(values):
+    known = [value for value in values if not np.isnan(value)]
     return f"{min(known):.4f}" if known else "unknown"
 
 

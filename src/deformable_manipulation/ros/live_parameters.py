@@ -8,36 +8,23 @@ from dynamic_reconfigure.server import Server
 
 from deformable_manipulation.cfg import ControllerConfig
 from deformable_manipulation.scenario import ScenarioError, controller_to_mapping, with_controller
+from deformable_manipulation.scenario.controller import live_parameters
 
 _AUTO = -1.0  # where the scenario says auto
 _ALL = -1  # level of the first call
 
-# Name in config/Controller.cfg -> key path in the scenario's section `controller`.
-KEYS = {
-    "gain": ("gain",),
-    "weight_x": ("weights", 0),
-    "weight_y": ("weights", 1),
-    "weight_z": ("weights", 2),
-    "max_velocity": ("max_velocity",),
-    "max_acceleration": ("max_acceleration",),
-    "smoothing": ("smoothing",),
-    "collision_offset": ("collision", "offset"),
-    "collision_margin": ("collision", "margin"),
-    "collision_speed_margin": ("collision", "speed_margin"),
-    "collision_alpha": ("collision", "alpha", 0),
-    "collision_alpha_back": ("collision", "alpha", 1),
-    "anticipation": ("collision", "anticipation", 0),
-    "anticipation_back": ("collision", "anticipation", 1),
-    "max_distance": ("overstretch", "max_distance"),
-    "max_fraction": ("overstretch", "fraction"),
-    "overstretch_margin": ("overstretch", "margin"),
-    "overstretch_alpha": ("overstretch", "alpha", 0),
-    "overstretch_alpha_back": ("overstretch", "alpha", 1),
-    "min_distance": ("proximity", "min_distance"),
-    "proximity_margin": ("proximity", "margin"),
-    "proximity_alpha": ("proximity", "alpha", 0),
-    "proximity_alpha_back": ("proximity", "alpha", 1),
-}
+
+def _key_paths():
+    """Name in dynamic_reconfigure -> key path in the scenario's section ``controller``."""
+    paths = {}
+    for path, declaration in live_parameters():
+        names = declaration.live.names
+        for index, name in enumerate(names):
+            paths[name] = path if len(names) == 1 else (*path, index)
+    return paths
+
+
+KEYS = _key_paths()
 
 
 def values_of(scenario):

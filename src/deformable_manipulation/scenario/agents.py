@@ -1,11 +1,13 @@
 """The ``agents`` section: who holds which particle, in which role, from where."""
 
 import re
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, Dict, Optional, Tuple
 
 from deformable_manipulation.scenario.errors import key_text, show
 from deformable_manipulation.scenario.objects import particle_position
+from deformable_manipulation.scenario.parameter import parameter
 from deformable_manipulation.scenario.readers import (
     Choice,
     Integer,
@@ -16,22 +18,60 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_all,
 )
-from deformable_manipulation.scenario.spec import ASSISTANT, LEADER, AgentSpec
+from deformable_manipulation.scenario.values import Quaternion, Vector
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
-AGENT = Section(
-    AgentSpec,
-    {
-        "particle": Integer(0, 2**31 - 1),
-        "role": Choice(LEADER, ASSISTANT),
-        "hold": Choice("clamped", "pinned"),
-        "driven_by": Choice("command", "pose"),
-        "start": position(),
-        "orientation": UnitQuaternion(),
-    },
-    defaults={"start": None, "orientation": None},
-)
+LEADER = "leader"
+ASSISTANT = "assistant"
+
+
+@dataclass(frozen=True)
+class AgentSpec:
+    """A robot or person that holds one particle of the object."""
+
+    name: str
+    particle: int = parameter(
+        Integer(0, 2**31 - 1),
+        "The held particle: a rod's segment, held at its centre, or a fabric's vertex.",
+        allowed="a particle of the object",
+    )
+    role: str = parameter(
+        Choice(LEADER, ASSISTANT),
+        "The leader follows its path. Assistants keep their place relative to it.",
+    )
+    hold: str = parameter(
+        Choice("clamped", "pinned"),
+        "`clamped` keeps the particle's orientation, `pinned` leaves it free. There is no "
+        "difference for fabrics, whose particles are points.",
+        default="clamped",
+    )
+    driven_by: str = parameter(
+        Choice("command", "pose"),
+        "What moves the agent in the simulator. `command`: its velocity command. `pose`: the poses "
+        "that a real robot or another simulator publishes.",
+        default="command",
+    )
+    start: Vector = parameter(
+        position(),
+        "Held point at the start. An assistant keeps its place relative to the leader's. On the "
+        "undeformed object, the default, two agents are a free length apart: the object is taut, "
+        "which the limit of 99 % (`controller.overstretch`) refuses. Give starts that are nearer "
+        "to each other.",
+        default=(0.0, 0.0, 0.0),
+        default_text="the particle on the undeformed object",
+        allowed="within the limits of each pair, see controller",
+    )
+    orientation: Quaternion = parameter(
+        UnitQuaternion(),
+        "Of the held particle; a clamped one keeps it.",
+        default=(0.0, 0.0, 0.0, 1.0),
+        default_text="`object.pose.orientation`",
+    )
+
+
+# start and orientation follow from the object where they are left out.
+AGENT = Section(AgentSpec, defaults={"start": None, "orientation": None})
 
 Draft = Dict[str, Any]  # attributes of an AgentSpec that could be read; None: of the object
 

@@ -4,10 +4,12 @@ import math
 from itertools import combinations
 from typing import Sequence, Tuple
 
+from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.barriers.pairs import limits_between
 from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.limits import limits_between
 from deformable_manipulation.scenario.objects import free_length
-from deformable_manipulation.scenario.readers import Report
+from deformable_manipulation.scenario.parameter import declared
+from deformable_manipulation.scenario.readers import Report, Slopes
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
@@ -33,14 +35,7 @@ def _distance(first: Sequence[float], second: Sequence[float]) -> float:
 def check_loop(report: Report, controller: ControllerSpec) -> None:
     """Rates of convergence that the controller's cycle can follow, and a timeout it can meet."""
     rate = controller.rate
-    slopes = [
-        (("collision", "alpha"), controller.collision.alpha),
-        (("collision", "anticipation"), controller.collision.anticipation),
-        (("overstretch", "alpha"), controller.overstretch.alpha),
-        (("proximity", "alpha"), controller.proximity.alpha),
-        (("gain",), (controller.gain,)),
-    ]
-    for path, values in slopes:
+    for path, values in [*_slopes(controller), (("gain",), (controller.gain,))]:
         if max(values) >= rate:
             report.add(
                 ("controller",) + path,
@@ -61,6 +56,23 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
             "must be at least one cycle, 1 / controller.rate = {:g} s".format(1.0 / rate),
             show(controller.timeout),
         )
+
+
+def _slopes(controller: ControllerSpec):
+    """Key path and value of every slope of the barriers in use."""
+    for name in controller.barriers:
+        section = getattr(controller, name)
+        for key, (attribute, declaration) in declared(section).items():
+            if isinstance(declaration.reader, Slopes):
+                yield (name, key), getattr(section, attribute)
+
+
+def check_barriers(
+    report: Report, spec, agents: Tuple[AgentSpec, ...], controller: ControllerSpec
+) -> None:
+    """What each barrier in use demands of the object and the agents."""
+    for name in controller.barriers:
+        BARRIERS[name].check(report, spec, agents, controller)
 
 
 def check_time(report: Report, controller: ControllerSpec, simulation: SimulationSpec) -> None:

@@ -1,43 +1,42 @@
-"""The ``controller`` section."""
+"""The ``controller`` section: its parameters, and the barriers' sections in it."""
 
 import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, List, Optional, Tuple
 
-from deformable_manipulation.scenario.formulation import FULL, PAPER, FormulatedSection
+from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.parameter import (
+    NOTHING,
+    Live,
+    Parameter,
+    declared_below,
+    parameter,
+)
 from deformable_manipulation.scenario.readers import (
-    LARGEST_COORDINATE,
     Array,
-    Auto,
     Choice,
     Flag,
     Node,
     Number,
-    Section,
+    Report,
     vector,
 )
-from deformable_manipulation.scenario.spec import (
-    CENTRALISED,
-    DECENTRALISED,
-    CollisionSpec,
-    ControllerSpec,
-    OverstretchSpec,
-    ProximitySpec,
-    RodSpec,
-)
+from deformable_manipulation.scenario.values import Vector
+
+DECENTRALISED = "decentralised"
+CENTRALISED = "centralised"
+FULL, PAPER = "full", "paper"
 
 # Less would be rounding in the differences between copies, one of which may be at a quarter of it.
 _SMALLEST_PERTURBATION = 1e-5  # m
-
-_ALPHA = Array(2, Number("1/s", above=0.0), "[slope for h >= 0, slope for h < 0]")
-
-
-_MARGIN = Number("m", at_least=0.0, at_most=LARGEST_COORDINATE)
-
-_LIMITS = ("collision", "overstretch", "proximity")
 
 
 class QpSolver:
     """The package's own solver, or one that qpsolvers offers on this machine."""
 
+    type, unit = "text", ""
+    range = "`native`, dense solvers of qpsolvers that are installed"
     allowed = "native, or the name of a dense solver of qpsolvers that is installed"
 
     def __call__(self, node: Node) -> str:
@@ -55,80 +54,196 @@ class QpSolver:
         return node.value
 
 
-class Priority(Array):
-    """An order of the limits; returns a tuple."""
+class Priority:
+    """An order of barriers; returns a tuple of their names."""
 
-    def __init__(self):
-        super().__init__(len(_LIMITS), Choice(*_LIMITS), "[yields last, then, yields first]")
+    type, unit, range = "list of text", "", "the name of each barrier in use once"
+    allowed = "a list of the names of the barriers in use, the last to yield first"
 
-    def __call__(self, node: Node):
-        order = super().__call__(node)
-        if sorted(order) != sorted(_LIMITS):
-            node.fail("must name each of {} once".format(", ".join(_LIMITS)))
+    def __call__(self, node: Node) -> Tuple[str, ...]:
+        if not isinstance(node.value, (list, tuple)):
+            node.fail("must be {}".format(self.allowed))
+        order = Array(len(node.value), Choice(*BARRIERS), "")(node)
+        if len(set(order)) < len(order):
+            node.fail("must name each of {} once".format(", ".join(BARRIERS)))
         return order
 
 
-COLLISION = Section(
-    CollisionSpec,
-    {
-        "offset": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
-        "alpha": _ALPHA,
-        "anticipation": _ALPHA,
-        "margin": _MARGIN,
-        "speed_margin": Number("s", at_least=0.0, at_most=10.0),
-        "band": Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
-        "obstacle_velocity": Flag(),
-        "gradient": Choice("features", "minimum"),
-        "backend": Choice("native", "reference"),
-    },
-)
+@dataclass(frozen=True)
+class _ControllerKeys:
+    """The parameters of the assistants' safe velocity controller, but for its barriers."""
 
-OVERSTRETCH = Section(
-    OverstretchSpec,
-    {
-        "max_distance": Auto("m", above=0.0),
-        "fraction": Number("1", above=0.0, at_most=1.0),
-        "margin": _MARGIN,
-        "alpha": _ALPHA,
-    },
-)
+    formulation: str = parameter(
+        Choice(FULL, PAPER),
+        "`full`: all of [mathematics.md](mathematics.md#barriers). `paper`: the paper's equations "
+        "as they are, for comparison, see [below](#the-papers-formulation).",
+        default=FULL,
+        native=True,
+    )
+    cooperation: str = parameter(
+        Choice(DECENTRALISED, CENTRALISED),
+        "`decentralised`: each assistant decides from its own observations, and assistants share "
+        "the limits that several of them can act on. `centralised`: one quadratic program for all "
+        "assistants, in one process. See "
+        "[safety.md](safety.md#decentralised-or-centralised).",
+        default=DECENTRALISED,
+        paper=DECENTRALISED,
+    )
+    priority: Optional[Tuple[str, ...]] = parameter(
+        Priority(),
+        "Which limit yields to which where not all can hold: the first yields last.",
+        default=None,
+        default_text="`[collision, workspace, overstretch, proximity]`, those in use",
+        native=True,
+    )
+    rate: float = parameter(
+        Number("Hz", at_least=0.1, at_most=10000.0),
+        "Commands per second. Lower it where the machine does not keep up.",
+        default=100.0,
+    )
+    gain: float = parameter(
+        Number("1/s", above=0.0),
+        "k_p: how fast an assistant closes in on its place.",
+        default=1.0,
+        allowed="below `rate`",
+        live=Live(("gain",), 0.01, 20.0),
+        native=True,
+    )
+    weights: Vector = parameter(
+        vector("1", at_least=1e-6, at_most=1e6),
+        "gamma: cost of leaving the nominal velocity, per axis. Raise one to keep an assistant from "
+        "giving way along that axis.",
+        default=(1.0, 1.0, 1.0),
+        allowed="at most a factor of 100 apart",
+        live=Live(("weight_x", "weight_y", "weight_z"), 0.01, 100.0),
+        native=True,
+    )
+    max_velocity: float = parameter(
+        Number("m/s", above=0.0, at_most=10.0),
+        "Bound on every component of the command. Use the robot's limit.",
+        default=0.15,
+        live=Live(("max_velocity",), 0.001, 2.0),
+        native=True,
+    )
+    max_acceleration: float = parameter(
+        Number("m/s^2", above=0.0, at_most=1000.0),
+        "Bound on every component of the command's change. Use the robot's limit.",
+        default=1.0,
+        live=Live(("max_acceleration",), 0.01, 20.0),
+        native=True,
+    )
+    smoothing: float = parameter(
+        Number("s", at_least=0.0, at_most=10.0),
+        "Time constant with which the departure from the nominal velocity changes where the limits "
+        "leave a choice. It keeps the command from jumping when other rows become active; limits "
+        "still act at once. 0 switches it off.",
+        default=0.2,
+        paper=0.0,
+        live=Live(("smoothing",), 0.0, 10.0),
+        native=True,
+    )
+    perturbation: Vector = parameter(
+        vector("m", smallest_size=_SMALLEST_PERTURBATION),
+        "Displacement of the held point in the copy of each axis. It may be negative. Smaller "
+        "values give a more local gradient.",
+        default=(0.1, 0.1, 0.1),
+        allowed="smaller than the shortest free length between two agents",
+    )
+    jacobian: str = parameter(
+        Choice("perturbed_copies", "equilibrium"),
+        "Where the gradients come from. `equilibrium`: the exact response of the object in its "
+        "equilibrium; the copies take over in cycles where it is not known. `perturbed_copies`: "
+        "differences between perturbed copies (the paper). The exact response of a fabric costs "
+        "more than its copies and is for fabrics that are stiff in their plane.",
+        default="equilibrium",
+        default_text="`equilibrium`; for fabrics `perturbed_copies`",
+        paper="perturbed_copies",
+        native=True,
+    )
+    differences: str = parameter(
+        Choice("central", "forward"),
+        "`central`: copies on both sides, whose difference has no bias of first order. `forward`: "
+        "copies on one side only (the paper).",
+        default="central",
+        paper="forward",
+    )
+    feedforward: bool = parameter(
+        Flag(),
+        "Whether the nominal law and the barriers use the leader's measured velocity.",
+        default=True,
+        paper=False,
+        native=True,
+    )
+    solver: str = parameter(
+        QpSolver(),
+        "Solver of the quadratic program. All but `native` are for comparison, and slower.",
+        default="native",
+    )
+    timeout: float = parameter(
+        Number("s", above=0.0, at_most=1e6),
+        "Age at which an input counts as lost and the assistant stops.",
+        default=0.2,
+        allowed="at least one cycle",
+        native=True,
+    )
+    pose_smoothing: float = parameter(
+        Number("s", at_least=0.0, at_most=10.0),
+        "Time constant of the filter of measured poses (agents with `driven_by: pose`, and "
+        "[knowledge](#knowledge)). Raise it for noisier poses; 0 switches it off. Agents that move "
+        "as commanded are not filtered.",
+        default=0.2,
+    )
 
-PROXIMITY = Section(
-    ProximitySpec,
-    {"min_distance": Auto("m", at_least=0.0), "margin": _MARGIN, "alpha": _ALPHA},
-)
+    @property
+    def barriers(self) -> Tuple[str, ...]:
+        """Names of the barriers in use, in their order."""
+        return tuple(name for name in BARRIERS if getattr(self, name) is not None)
 
-CONTROLLER = FormulatedSection(
-    ControllerSpec,
-    {
-        "formulation": Choice(FULL, PAPER),
-        "cooperation": Choice(DECENTRALISED, CENTRALISED),
-        "priority": Priority(),
-        "rate": Number("Hz", at_least=0.1, at_most=10000.0),
-        "gain": Number("1/s", above=0.0),
-        "weights": vector("1", at_least=1e-6, at_most=1e6),
-        "max_velocity": Number("m/s", above=0.0, at_most=10.0),
-        "max_acceleration": Number("m/s^2", above=0.0, at_most=1000.0),
-        "smoothing": Number("s", at_least=0.0, at_most=10.0),
-        "perturbation": vector("m", smallest_size=_SMALLEST_PERTURBATION),
-        "jacobian": Choice("perturbed_copies", "equilibrium"),
-        "differences": Choice("central", "forward"),
-        "feedforward": Flag(),
-        "solver": QpSolver(),
-        "timeout": Number("s", above=0.0, at_most=1e6),
-        "pose_smoothing": Number("s", at_least=0.0, at_most=10.0),
-        "collision": COLLISION,
-        "overstretch": OVERSTRETCH,
-        "proximity": PROXIMITY,
-    },
-    # What it is depends on the object: for_object() fills it in.
-    defaults={"jacobian": None},
-)
+
+def _with_barriers(keys: type) -> type:
+    """A class with a field for each barrier's section beside the fields of ``keys``."""
+    fields = [(name, Any, kind.field()) for name, kind in BARRIERS.items()]
+    required = [field for field in fields if BARRIERS[field[0]].default is NOTHING]
+    optional = [field for field in fields if field not in required]
+    # A dataclass takes the fields of its last base first, and those without defaults come first.
+    first = dataclasses.make_dataclass("_RequiredBarriers", required, frozen=True)
+    made = dataclasses.make_dataclass("ControllerSpec", optional, bases=(keys, first), frozen=True)
+    made.__module__ = __name__  # where pickle looks for it
+    made.__doc__ = "The assistants' safe velocity controller: its parameters and its barriers."
+    return made
+
+
+if TYPE_CHECKING:
+
+    class ControllerSpec(_ControllerKeys):
+        """The assistants' safe velocity controller: its parameters and its barriers."""
+
+        def __init__(self, **values: Any) -> None: ...
+        def __getattr__(self, name: str) -> Any: ...
+else:
+    ControllerSpec = _with_barriers(_ControllerKeys)
+
+
+def live_parameters() -> List[Tuple[Tuple[str, ...], Parameter]]:
+    """The parameters that can change while running, with their key paths in the section."""
+    return [each for each in declared_below(ControllerSpec) if each[1].live is not None]
 
 
 def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
-    """The section with what depends on the object filled in: exact gradients where it has them."""
-    if controller.jacobian is not None:
-        return controller
-    jacobian = "equilibrium" if isinstance(spec, RodSpec) else "perturbed_copies"
-    return dataclasses.replace(controller, jacobian=jacobian)
+    """The section with what depends on the object and on its barriers filled in."""
+    filled = {}
+    if controller.jacobian is None:
+        filled["jacobian"] = "equilibrium" if spec.type == "rod" else "perturbed_copies"
+    if controller.priority is None:
+        filled["priority"] = controller.barriers
+    return dataclasses.replace(controller, **filled)
+
+
+def check_priority(report: Report, controller: ControllerSpec) -> None:
+    """The priority names the barriers in use, and no others."""
+    if controller.priority is not None and set(controller.priority) != set(controller.barriers):
+        report.add(
+            ("controller", "priority"),
+            "must name each barrier in use once: {}".format(", ".join(controller.barriers)),
+            show(list(controller.priority)),
+        )

@@ -3,27 +3,16 @@
 import dataclasses
 from typing import Any, Dict
 
+from deformable_manipulation.scenario.controller import PAPER, ControllerSpec
 from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.parameter import ANY, declared_below
 from deformable_manipulation.scenario.readers import Node, Report, Section
-from deformable_manipulation.scenario.spec import DECENTRALISED, ControllerSpec
 
-FULL, PAPER = "full", "paper"
-
-# The paper's values: defaults with ``formulation: paper``, and nothing else is allowed there.
-_PAPERS = {
-    "cooperation": DECENTRALISED,
-    "jacobian": "perturbed_copies",
-    "differences": "forward",
-    "feedforward": False,
-    "smoothing": 0.0,
-    "collision": {
-        "margin": 0.0,
-        "speed_margin": 0.0,
-        "obstacle_velocity": False,
-        "gradient": "minimum",
-    },
-    "overstretch": {"margin": 0.0},
-    "proximity": {"margin": 0.0},
+# The paper's values, by key path: defaults with ``formulation: paper``, and nothing else is allowed.
+PAPERS = {
+    path: declaration.paper
+    for path, declaration in declared_below(ControllerSpec)
+    if declaration.paper is not ANY
 }
 
 
@@ -31,39 +20,53 @@ class FormulatedSection(Section):
     """The controller's section, whose defaults depend on its formulation."""
 
     def read_parts(self, node: Node) -> Dict[str, Any]:
-        value = node.value
-        if isinstance(value, dict) and value.get("formulation") == PAPER:
-            node = dataclasses.replace(node, value=_completed(value, _PAPERS))
+        """See :meth:`~.readers.Section.read_parts`."""
+        if isinstance(node.value, dict) and node.value.get("formulation") == PAPER:
+            node = dataclasses.replace(node, value=_completed(node.value))
         return super().read_parts(node)
 
 
-def _completed(given, defaults):
-    """``given`` with the defaults for what it lacks, at every depth; no mapping: as it is."""
-    if not (isinstance(given, dict) and isinstance(defaults, dict)):
-        return given
-    known = {
-        key: _completed(given.get(key, {}), value)
-        for key, value in defaults.items()
-        if isinstance(value, dict)
-    }
-    return {**defaults, **given, **known}
+# jacobian depends on the object where it is left out: controller.for_object() fills it in.
+CONTROLLER = FormulatedSection(ControllerSpec, defaults={"jacobian": None})
+
+
+def _completed(given: Dict[str, Any]) -> Dict[str, Any]:
+    """``given`` with the paper's values for what it lacks; sections that are none stay as they are."""
+    completed = dict(given)
+    for path, value in PAPERS.items():
+        section = completed
+        for key in path[:-1]:
+            if key not in section and not _is_in_use(key):
+                break
+            below = section.get(key, {})
+            if not isinstance(below, dict):
+                break
+            section[key] = dict(below)
+            section = section[key]
+        else:
+            section.setdefault(path[-1], value)
+    return completed
+
+
+def _is_in_use(key: str) -> bool:
+    """Whether a section is there where the scenario does not give it."""
+    return CONTROLLER.defaults.get(key) is not None or key not in CONTROLLER.defaults
 
 
 def check_formulation(report: Report, controller: ControllerSpec) -> None:
     """The paper's formulation with nothing but the paper's values."""
-    if controller.formulation == PAPER:
-        _check_values(report, ("controller",), controller, _PAPERS)
-
-
-def _check_values(report: Report, path, section, wanted) -> None:
-    for key, value in wanted.items():
-        given = getattr(section, key)
-        if isinstance(value, dict):
-            _check_values(report, path + (key,), given, value)
-        elif given != value:
+    if controller.formulation != PAPER:
+        return
+    for path, wanted in PAPERS.items():
+        given = controller
+        for key in path:
+            given = getattr(given, key, None)
+            if given is None:
+                break
+        if given is not None and given != wanted:
             report.add(
-                path + (key,),
+                ("controller", *path),
                 "must be {} with controller.formulation: paper; leave it out, or take formulation: "
-                "full".format(show(value)),
+                "full".format(show(wanted)),
                 show(given),
             )

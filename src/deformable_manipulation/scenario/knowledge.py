@@ -1,22 +1,56 @@
 """The ``knowledge`` section: what the controllers of a run without ROS do not know exactly."""
 
+import dataclasses
+from dataclasses import dataclass
+
+from deformable_manipulation.scenario.controller import ControllerSpec
 from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.parameter import parameter
 from deformable_manipulation.scenario.readers import Integer, Number, Report, Section
-from deformable_manipulation.scenario.spec import ControllerSpec, KnowledgeSpec
 
 _FACTOR = Number("1", at_least=0.01, at_most=100.0)
 
-KNOWLEDGE = Section(
-    KnowledgeSpec,
-    {
-        "pose_noise": Number("m", at_least=0.0, at_most=0.1),
-        "pose_delay": Number("s", at_least=0.0),
-        "stiffness_factor": _FACTOR,
-        "density_factor": _FACTOR,
-        "dropped_cycles": Number("1", at_least=0.0, at_most=0.99),
-        "seed": Integer(0, 2**31 - 1),
-    },
-)
+
+@dataclass(frozen=True)
+class KnowledgeSpec:
+    """What the controllers do not know exactly, in runs without ROS; the defaults are all of it."""
+
+    pose_noise: float = parameter(
+        Number("m", at_least=0.0, at_most=0.1),
+        "Standard deviation of every component of a held point, drawn anew in every cycle.",
+        default=0.0,
+    )
+    pose_delay: float = parameter(
+        Number("s", at_least=0.0),
+        "Age of the newest poses.",
+        default=0.0,
+        allowed="below `controller.timeout`",
+    )
+    stiffness_factor: float = parameter(
+        _FACTOR,
+        "True over assumed stiffness: moduli of a rod, 1 / compliances of a fabric.",
+        default=1.0,
+    )
+    density_factor: float = parameter(_FACTOR, "True over assumed density.", default=1.0)
+    dropped_cycles: float = parameter(
+        Number("1", at_least=0.0, at_most=0.99),
+        "Probability that a controller gets no new state in a cycle. Its last command goes on, for "
+        "at most `controller.timeout`.",
+        default=0.0,
+    )
+    seed: int = parameter(
+        Integer(0, 2**31 - 1),
+        "Of noise and drops. The same seed gives the same run.",
+        default=0,
+    )
+
+    @property
+    def perfect(self) -> bool:
+        """Whether the controllers see the object itself, at once and in every cycle."""
+        return dataclasses.replace(self, seed=0) == KnowledgeSpec()
+
+
+KNOWLEDGE = Section(KnowledgeSpec)
 
 
 def check_delay(report: Report, controller: ControllerSpec, knowledge: KnowledgeSpec) -> None:

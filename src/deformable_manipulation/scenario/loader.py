@@ -9,41 +9,19 @@ from deformable_manipulation.scenario.agents import read_agents
 from deformable_manipulation.scenario.document import read_document
 from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.formulation import check_formulation
-from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
+from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
+from deformable_manipulation.scenario.knowledge import check_delay
 from deformable_manipulation.scenario.motions import check_frames
-from deformable_manipulation.scenario.names import FRAME, ONE_LINE
-from deformable_manipulation.scenario.objects import read_object
-from deformable_manipulation.scenario.obstacles import read_obstacles
 from deformable_manipulation.scenario.overrides import Override, apply_overrides
 from deformable_manipulation.scenario.readers import (
-    Custom,
     Node,
     Report,
     Section,
     Unreadable,
 )
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.scenario.waypoints import LEADER_PATH
 
-# The agents' starts follow from the object: their section is read when all others have been.
-_LATER = Custom(lambda node: node, "a section with one section per agent, by name")
-
-SCENARIO = Section(
-    Scenario,
-    {
-        "name": ONE_LINE,
-        "frame": FRAME,
-        "object": Custom(read_object, "a section with type and its keys"),
-        "agents": _LATER,
-        "obstacles": Custom(read_obstacles, "a list of obstacles"),
-        "leader": LEADER_PATH,
-        "controller": controller.CONTROLLER,
-        "simulation": simulation.SIMULATION,
-        "knowledge": KNOWLEDGE,
-    },
-    defaults={"obstacles": ()},
-)
+SCENARIO = Section(Scenario, defaults={"obstacles": ()})
 
 
 def load_scenario(path_or_name: Union[str, Path], overrides: Iterable[Override] = ()) -> Scenario:
@@ -97,7 +75,7 @@ def with_controller(scenario: Scenario, section: Mapping[str, Any]) -> Scenario:
     report = Report()
     node = Node(section, ("controller",), report, Path("."))
     try:
-        parts["controller"] = controller.CONTROLLER(node)
+        parts["controller"] = CONTROLLER(node)
     except Unreadable:
         del parts["controller"]
     _check_together(report, parts)
@@ -151,10 +129,12 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
 
     check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
+    check(controller.check_priority, "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")
+    check(checks.check_barriers, "object", "agents", "controller")
     check(checks.check_perturbation, "object", "agents", "controller")

@@ -5,6 +5,7 @@ from typing import Any, Dict
 
 import yaml
 
+from deformable_manipulation.scenario.readers import Section
 from deformable_manipulation.scenario.spec import (
     AgentSpec,
     FabricSpec,
@@ -66,7 +67,17 @@ def _obstacle(obstacle) -> Dict[str, Any]:
 
 def _plain(value):
     if dataclasses.is_dataclass(value):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        return {
+            field.name: _plain(getattr(value, field.name))
+            for field in dataclasses.fields(value)
+            if not _is_absent(field, getattr(value, field.name))
+        }
     if isinstance(value, tuple):
         return [_plain(item) for item in value]
     return "auto" if value is None else value
+
+
+def _is_absent(field: dataclasses.Field, value) -> bool:
+    """Whether a section is not in use."""
+    declaration = field.metadata.get("parameter")
+    return value is None and declaration is not None and isinstance(declaration.reader, Section)

@@ -17,7 +17,7 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.spec import Vector
+from deformable_manipulation.scenario.values import Vector
 
 _LARGEST_INDEX = 2**31 - 1
 _FILE = "the name of a mesh file (OBJ, PLY, STL and others)"
@@ -34,6 +34,7 @@ class Mesh:
 class Scale:
     """[m per unit] along the three axes: three numbers, or one for all of them."""
 
+    type, unit, range = "number or vector", "m", "1e-6 to 1e6; with a file only"
     _number = Number("m", at_least=1.0 / LARGEST_COORDINATE, at_most=LARGEST_COORDINATE)
     _numbers = Array(3, _number, "[x, y, z]")
     allowed = "{}, or a list [x, y, z] of them".format(_number.allowed)
@@ -51,6 +52,7 @@ class MeshFile:
     unless that has been done before (:attr:`Node.files_are_read`).
     """
 
+    type, unit, range = "file", "", ""
     allowed = _FILE
 
     def __call__(self, node: Node) -> str:
@@ -64,6 +66,7 @@ class MeshFile:
 class InlineMesh:
     """A mesh in a file or in the scenario itself; returns vertices and triangles."""
 
+    type, unit, range = "file or section", "m", ""
     allowed = _FILE + ", or a section with keys vertices and triangles"
 
     def __call__(self, node: Node) -> Mesh:

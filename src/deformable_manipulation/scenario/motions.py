@@ -1,10 +1,12 @@
 """The ``motion`` of an obstacle: where its pose comes from."""
 
 import re
-from typing import Tuple
+from dataclasses import dataclass
+from typing import Tuple, Union
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.names import FRAME
+from deformable_manipulation.scenario.parameter import declared, parameter
 from deformable_manipulation.scenario.readers import (
     Node,
     Report,
@@ -14,18 +16,31 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.spec import (
-    FrameMotion,
-    Motion,
-    PathMotion,
-    PoseWaypoint,
-    TopicMotion,
-)
+from deformable_manipulation.scenario.values import Quaternion, Vector
 from deformable_manipulation.scenario.waypoints import TIME, check_times
 
-POSE_WAYPOINT = Section(
-    PoseWaypoint, {"time": TIME, "position": position(), "orientation": UnitQuaternion()}
-)
+
+@dataclass(frozen=True)
+class PoseWaypoint:
+    """Where an obstacle is at a time, relative to its own pose."""
+
+    time: float = parameter(
+        TIME, "When the obstacle is there.", allowed="increasing by at least 0.001"
+    )
+    position: Vector = parameter(
+        position(),
+        "Where it is, relative to `translation`, along the axes of the fixed frame.",
+        default=(0.0, 0.0, 0.0),
+    )
+    orientation: Quaternion = parameter(
+        UnitQuaternion(),
+        "How far it is turned about its origin, after `rotation`. From one waypoint to the next it "
+        "turns the shorter way round.",
+        default=(0.0, 0.0, 0.0, 1.0),
+    )
+
+
+POSE_WAYPOINT = Section(PoseWaypoint)
 _TOPIC = Text(
     re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*"),
     "a ROS topic: names of letters, digits and _ between /",
@@ -35,6 +50,7 @@ _TOPIC = Text(
 class _PoseWaypoints:
     """A list of waypoints with increasing times."""
 
+    type, unit, range = "list", "", "one or more"
     allowed = "a list of waypoints {time: s, position: [x, y, z], orientation: [x, y, z, w]}"
 
     def __call__(self, node: Node) -> Tuple[PoseWaypoint, ...]:
@@ -45,16 +61,54 @@ class _PoseWaypoints:
         return waypoints
 
 
+@dataclass(frozen=True)
+class PathMotion:
+    """An obstacle's scripted way; smooth between the waypoints, at rest before and after."""
+
+    waypoints: Tuple[PoseWaypoint, ...] = parameter(
+        _PoseWaypoints(),
+        "A path, smooth between the waypoints like the leader's, at rest before the first and after "
+        "the last. Time counts from the start or reset of the run.",
+    )
+
+
+@dataclass(frozen=True)
+class TopicMotion:
+    """An obstacle whose pose somebody publishes, as geometry_msgs/PoseStamped."""
+
+    topic: str = parameter(
+        _TOPIC,
+        "`geometry_msgs/PoseStamped` of the obstacle's frame in the fixed frame, from a tracker or "
+        "from whoever moves it, by hand in RViz for example. Relative to the namespace of the run.",
+    )
+
+
+@dataclass(frozen=True)
+class FrameMotion:
+    """An obstacle that is where a tf frame is."""
+
+    frame: str = parameter(
+        FRAME, "The obstacle's frame is where this one is.", allowed="not the fixed frame"
+    )
+
+
+Motion = Union[PathMotion, TopicMotion, FrameMotion]
 _KINDS = {
-    "waypoints": Section(PathMotion, {"waypoints": _PoseWaypoints()}),
-    "topic": Section(TopicMotion, {"topic": _TOPIC}),
-    "frame": Section(FrameMotion, {"frame": FRAME}),
+    "waypoints": Section(PathMotion),
+    "topic": Section(TopicMotion),
+    "frame": Section(FrameMotion),
 }
 
 
 class MotionReader:
     """Exactly one source of poses."""
 
+    type, unit, range = "section", "", ""
+    declarations = {
+        key: declaration
+        for section in _KINDS.values()
+        for key, (_, declaration) in declared(section.spec).items()
+    }
     fields = {key: section.fields[key] for key, section in _KINDS.items()}
     defaults = {}
     others = ()

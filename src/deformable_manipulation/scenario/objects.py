@@ -12,13 +12,14 @@ from deformable_manipulation.scenario.fabric import (
     read_fabric,
 )
 from deformable_manipulation.scenario.materials import read_with_material
+from deformable_manipulation.scenario.object_specs import FabricSpec, RodSpec
 from deformable_manipulation.scenario.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.rod import (
     read_rod,
     rod_free_length,
     rod_particle_position,
 )
-from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Vector
+from deformable_manipulation.scenario.values import Vector
 
 _READERS = {"rod": read_rod, "fabric": read_fabric}
 _TYPE = Choice(*_READERS)

@@ -1,14 +1,16 @@
 """The ``obstacles`` section: one reader per kind of obstacle."""
 
 import dataclasses
-from typing import Tuple, Union
+from dataclasses import dataclass
+from typing import Optional, Tuple, Union
 
 from deformable_manipulation.distance.polygons import PolygonError, Ring, check_ring, read_ring
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.files import resolve_file
 from deformable_manipulation.scenario.meshes import MeshFile, Scale
-from deformable_manipulation.scenario.motions import MOTION
+from deformable_manipulation.scenario.motions import MOTION, Motion
 from deformable_manipulation.scenario.names import ONE_LINE
+from deformable_manipulation.scenario.parameter import parameter
 from deformable_manipulation.scenario.readers import (
     Array,
     Choice,
@@ -21,9 +23,7 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
-
-Obstacle = Union[PolygonObstacle, MeshObstacle]
+from deformable_manipulation.scenario.values import Quaternion, Vector
 
 _POINT = Array(2, Number("m"), "[a, b]")
 
@@ -31,6 +31,7 @@ _POINT = Array(2, Number("m"), "[a, b]")
 class Polygon:
     """A ring: inline points, or the name of a CSV file."""
 
+    type, unit, range = "file or list", "m", ""
     allowed = "the name of a CSV file, or a list of points [a, b]"
 
     def __call__(self, node: Node) -> Ring:
@@ -44,31 +45,65 @@ class Polygon:
             node.fail(str(error))
 
 
-POLYGON_OBSTACLE = Section(
-    PolygonObstacle,
-    {
-        "name": ONE_LINE,
-        "polygon": Polygon(),
-        "plane": Choice("xy", "yz", "xz"),
-        "translation": position(),
-        "rotation": UnitQuaternion(),
-        "motion": MOTION,
-    },
-    rename={"polygon": "points"},
+_NAME = parameter(ONE_LINE, "Appears in messages and markers.")
+_TRANSLATION = parameter(position(), "Moves the obstacle.", default=(0.0, 0.0, 0.0))
+_ROTATION = parameter(
+    UnitQuaternion(),
+    "Turns it about its origin, before `translation`.",
+    default=(0.0, 0.0, 0.0, 1.0),
+)
+_MOTION = parameter(
+    MOTION,
+    "What moves it, see [below](#obstacles-motion).",
+    default=None,
+    default_text="none: it stands still",
 )
 
 
-MESH_OBSTACLE = Section(
-    MeshObstacle,
-    {
-        "name": ONE_LINE,
-        "mesh": MeshFile(),
-        "translation": position(),
-        "rotation": UnitQuaternion(),
-        "scale": Scale(),
-        "motion": MOTION,
-    },
-)
+@dataclass(frozen=True)
+class PolygonObstacle:
+    """A polygon in a plane, endless along the plane's normal.
+
+    A point (a, b) of the ring lies at ``translation + rotation * embed(a, b)``, where ``embed``
+    puts a and b on the two axes that ``plane`` names ("yz": a on y, b on z).
+    """
+
+    name: str = _NAME
+    points: Tuple[Tuple[float, float], ...] = parameter(
+        Polygon(), "Ring of points `[a, b]`.", allowed="see below", key="polygon"
+    )
+    plane: str = parameter(Choice("xy", "yz", "xz"), "Axes of a and b.", default="yz")
+    translation: Vector = _TRANSLATION
+    rotation: Quaternion = _ROTATION
+    motion: Optional[Motion] = _MOTION
+
+
+@dataclass(frozen=True)
+class MeshObstacle:
+    """The surface of triangles in a file.
+
+    A vertex v of the file lies at ``translation + rotation * (scale * v)``.
+    """
+
+    name: str = _NAME
+    mesh: str = parameter(
+        MeshFile(),
+        "OBJ, PLY, STL or another format that Trimesh reads; any number of triangles.",
+        allowed="see below",
+    )
+    translation: Vector = _TRANSLATION
+    rotation: Quaternion = _ROTATION
+    scale: Vector = parameter(
+        Scale(),
+        "Metres per unit of the file, along its axes; 0.001 for a file in mm.",
+        default=(1.0, 1.0, 1.0),
+    )
+    motion: Optional[Motion] = _MOTION
+
+
+POLYGON_OBSTACLE = Section(PolygonObstacle)
+MESH_OBSTACLE = Section(MeshObstacle)
+Obstacle = Union[PolygonObstacle, MeshObstacle]
 
 
 def _read_obstacle(node: Node) -> Obstacle:

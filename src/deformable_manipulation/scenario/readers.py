@@ -2,7 +2,8 @@
 
 A reader is called with a :class:`Node` and returns the value. Where the node does not hold one it
 reports the problem and raises :class:`Unreadable`; readers of lists and sections first try all
-their parts, so that one pass finds every mistake. ``allowed`` says in words what a reader takes.
+their parts, so that one pass finds every mistake. ``allowed`` says in words what a reader takes;
+``type``, ``unit`` and ``range`` say it in the columns of docs/parameters.md.
 """
 
 import dataclasses
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from deformable_manipulation.scenario.errors import Problem, key_text, show
+from deformable_manipulation.scenario.parameter import declared
 
 LARGEST_COORDINATE = 1e6  # m; beyond it distances lose the precision that safety needs
 _UNIT_NORM = 1e-12  # quaternions this near to unit norm stay as they are, so that reading is stable
@@ -97,9 +99,12 @@ def _to_float(value) -> Optional[float]:
 class Custom:
     """A reader made of a function of a node."""
 
-    def __init__(self, read: Callable[[Node], Any], allowed: str):
+    unit = range = ""
+
+    def __init__(self, read: Callable[[Node], Any], allowed: str, type: str = "section"):
         self._read = read
         self.allowed = allowed
+        self.type = type
 
     def __call__(self, node: Node):
         return self._read(node)
@@ -107,6 +112,8 @@ class Custom:
 
 class Number:
     """A finite number within bounds."""
+
+    type = "number"
 
     def __init__(
         self,
@@ -116,8 +123,10 @@ class Number:
         at_most: Optional[float] = None,
         smallest_size: float = 0.0,
     ):
+        self.unit = unit
         self._above, self._at_least, self._at_most = above, at_least, at_most
         self._smallest_size = smallest_size
+        self.range = self._bounds().strip()
         self.allowed = "a number{}{}".format(self._bounds(), " [{}]".format(unit) if unit else "")
 
     def _bounds(self) -> str:
@@ -145,7 +154,10 @@ class Number:
 class Integer:
     """A whole number within bounds; 28.0 and "28" are accepted for 28."""
 
+    type, unit = "whole number", ""
+
     def __init__(self, at_least: int, at_most: int):
+        self.range = "{} to {}".format(at_least, at_most)
         self._at_least, self._at_most = at_least, at_most
         self.allowed = "a whole number from {} to {}".format(at_least, at_most)
 
@@ -163,6 +175,8 @@ class Integer:
 class Auto(Number):
     """A number, or ``auto`` (None)."""
 
+    type = "number or `auto`"
+
     def __init__(self, unit: str = "", **bounds):
         super().__init__(unit, **bounds)
         self.allowed += " or auto"
@@ -174,6 +188,7 @@ class Auto(Number):
 class Flag:
     """true or false."""
 
+    type, unit, range = "flag", "", "`true`, `false`"
     allowed = "true or false"
 
     def __call__(self, node: Node) -> bool:
@@ -185,8 +200,11 @@ class Flag:
 class Text:
     """A string that matches a pattern."""
 
+    type, unit = "text", ""
+
     def __init__(self, pattern, allowed: str):
         self._pattern = pattern
+        self.range = allowed
         self.allowed = allowed
 
     def __call__(self, node: Node) -> str:
@@ -198,8 +216,11 @@ class Text:
 class Choice:
     """One of several words."""
 
+    type, unit = "text", ""
+
     def __init__(self, *words: str):
         self._words = words
+        self.range = ", ".join("`{}`".format(word) for word in words)
         self.allowed = "one of {}".format(", ".join(words))
 
     def __call__(self, node: Node) -> str:
@@ -214,10 +235,36 @@ class Array:
 
     def __init__(self, length: int, item, form: str):
         self._length, self._item = length, item
+        self.type = {2: "two numbers", 3: "vector"}.get(length, "list of {}".format(length))
+        self.unit = item.unit
+        self.range = "each " + item.range if item.range else ""
         self.allowed = "a list {}, each {}".format(form, item.allowed)
 
     def __call__(self, node: Node) -> Tuple[Any, ...]:
         if not isinstance(node.value, (list, tuple)) or len(node.value) != self._length:
+            node.fail("must be {}".format(self.allowed))
+        return read_items(node, self._item)
+
+
+class Slopes(Array):
+    """The slopes of alpha(h), for h >= 0 and h < 0 [1/s]."""
+
+    def __init__(self):
+        super().__init__(2, Number("1/s", above=0.0), "[slope for h >= 0, slope for h < 0]")
+        self.range = "> 0, below `rate`"
+
+
+class Items:
+    """A list of any length of items that one reader reads; returns a tuple."""
+
+    type, unit, range = "list", "", ""
+
+    def __init__(self, item):
+        self._item = item
+        self.allowed = "a list, each item {}".format(item.allowed)
+
+    def __call__(self, node: Node) -> Tuple[Any, ...]:
+        if not isinstance(node.value, (list, tuple)):
             node.fail("must be {}".format(self.allowed))
         return read_items(node, self._item)
 
@@ -235,6 +282,7 @@ def position() -> Array:
 class UnitQuaternion:
     """A quaternion [x, y, z, w] of nearly unit norm; returns it normalised."""
 
+    type, unit, range = "quaternion", "", "norm 1"
     allowed = "a quaternion [x, y, z, w] of norm 1"
     _components = Array(4, Number(at_least=-2.0, at_most=2.0), "[x, y, z, w]")
 
@@ -260,26 +308,30 @@ def read_items(node: Node, reader) -> Tuple[Any, ...]:
 class Section:
     """A mapping with fixed keys that becomes an object of a spec class.
 
-    :param spec: dataclass; its defaults are those of the keys that may be absent.
-    :param fields: reader of each key.
-    :param rename: key -> attribute, where they differ.
-    :param defaults: defaults that differ from those of ``spec``.
-    :param others: further keys that belong here and are read elsewhere.
+    Args:
+        spec: dataclass whose fields are declared by :func:`~.parameter.parameter`; its defaults
+            are those of the keys that may be absent.
+        fields: reader of each key that is not declared.
+        defaults: defaults that differ from those of ``spec``: of what is filled in later.
+        others: further keys that belong here and are read elsewhere.
     """
+
+    type, unit, range = "section", "", ""
 
     def __init__(
         self,
         spec,
-        fields: Mapping[str, Callable[[Node], Any]],
-        rename: Optional[Mapping[str, str]] = None,
+        fields: Optional[Mapping[str, Callable[[Node], Any]]] = None,
         defaults: Optional[Mapping[str, Any]] = None,
         others: Sequence[str] = (),
     ):
+        declarations = declared(spec)
         self.spec = spec
-        self.fields = dict(fields)
-        self._rename = dict(rename or {})
+        self.fields = {key: each.reader for key, (_, each) in declarations.items()}
+        self.fields.update(fields or {})
+        self._attributes = {key: attribute for key, (attribute, _) in declarations.items()}
         self.others = tuple(others)
-        self._known = self.others + tuple(fields)
+        self._known = self.others + tuple(self.fields)
         self.defaults = dict(_spec_defaults(spec), **(defaults or {}))
         self.allowed = "a section with keys {}".format(", ".join(self._known))
 
@@ -299,7 +351,7 @@ class Section:
         self._report_unknown(node)
         parts = {}
         for key, reader in self.fields.items():
-            attribute = self._rename.get(key, key)
+            attribute = self._attributes.get(key, key)
             try:
                 parts[attribute] = self._read_field(node, key, attribute, reader)
             except Unreadable:

@@ -1,10 +1,12 @@
 """The ``simulation`` section."""
 
 import dataclasses
+from dataclasses import dataclass
 from typing import Optional
 
 from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.objects import auto_substeps
+from deformable_manipulation.scenario.parameter import parameter
 from deformable_manipulation.scenario.readers import (
     Choice,
     Integer,
@@ -14,11 +16,13 @@ from deformable_manipulation.scenario.readers import (
     Section,
     vector,
 )
-from deformable_manipulation.scenario.spec import RodSpec, SimulationSpec
+from deformable_manipulation.scenario.values import Vector
 
 
 class Substeps(Integer):
     """A whole number, or ``auto`` (None): what suits the object."""
+
+    type = "whole number or `auto`"
 
     def __init__(self):
         super().__init__(1, 10000)
@@ -28,19 +32,47 @@ class Substeps(Integer):
         return None if node.value == "auto" else super().__call__(node)
 
 
-SIMULATION = Section(
-    SimulationSpec,
-    {
-        "duration": Number("s", above=0.0, at_most=1e6),
-        "time_step": Number("s", at_least=1e-5, at_most=1.0),
-        "substeps": Substeps(),
-        "solver": Choice("direct", "gauss_seidel"),
-        "gravity": vector("m/s^2", at_least=-1000.0, at_most=1000.0),
-        "record_rate": Number("Hz", above=0.0),
-    },
-    # What they are depends on the object: for_object() fills them in.
-    defaults={"substeps": None, "solver": None},
-)
+@dataclass(frozen=True)
+class SimulationSpec:
+    """How the object is simulated and for how long."""
+
+    duration: float = parameter(
+        Number("s", above=0.0, at_most=1e6), "Length of the run.", allowed="at least one cycle"
+    )
+    time_step: float = parameter(
+        Number("s", at_least=1e-5, at_most=1.0),
+        "Time step of the simulation.",
+        default=0.01,
+        allowed="a whole number of them makes one cycle, 1 / `controller.rate`",
+    )
+    substeps: int = parameter(
+        Substeps(),
+        "Substeps per time step; the cost grows in proportion. `auto`: 2 for rods, which is enough "
+        "for `direct` (`gauss_seidel` needs tens); for fabrics, as many as make substeps of 1 ms.",
+        default=2,
+        default_text="`auto`",
+    )
+    solver: str = parameter(
+        Choice("direct", "gauss_seidel"),
+        "Solver of a rod's joints: all at once, or one after the other.",
+        default="direct",
+        allowed="rods only",
+    )
+    gravity: Vector = parameter(
+        vector("m/s^2", at_least=-1000.0, at_most=1000.0),
+        "Gravity.",
+        default=(0.0, 0.0, -9.81),
+    )
+    record_rate: float = parameter(
+        Number("Hz", above=0.0),
+        "Frames per second in `states.npz`.",
+        default=10.0,
+        allowed="at most `controller.rate`",
+    )
+
+
+# substeps and solver depend on the object where they are left out: for_object() fills them in.
+SIMULATION = Section(SimulationSpec, defaults={"substeps": None, "solver": None})
 
 
 def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSpec:
@@ -49,7 +81,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
     :param simulation: as read, with None for what is not given.
     :param spec: the object.
     """
-    if simulation.solver is not None and not isinstance(spec, RodSpec):
+    if simulation.solver is not None and spec.type != "rod":
         report.add(
             ("simulation", "solver"),
             "is of a rod's joints; remove it",

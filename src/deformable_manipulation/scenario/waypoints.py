@@ -1,23 +1,42 @@
 """The ``leader`` section: its scripted path, and the limits of its motion by hand."""
 
 import math
+from dataclasses import dataclass
 from typing import Optional, Tuple
 
 from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.scenario.parameter import parameter
 from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
-from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint, WorkspaceSpec
+from deformable_manipulation.scenario.values import Vector
 
 TIME = Number("s", at_least=0.0, at_most=1e6)
-WAYPOINT = Section(Waypoint, {"time": TIME, "position": position()})
-
-
 _SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end
 _LARGEST_SPEED = 5.0  # m/s, mean between waypoints: twice that is refused as a command
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """Where the leader is at a time, relative to its start."""
+
+    time: float = parameter(
+        TIME,
+        "When the leader is there.",
+        allowed="the first 0, then increasing by at least 0.001",
+    )
+    position: Vector = parameter(
+        position(),
+        "Where it is, relative to its start.",
+        allowed="the first `[0, 0, 0]`, then within 5 m/s of the one before",
+    )
+
+
+WAYPOINT = Section(Waypoint)
 
 
 class Waypoints:
     """A list of waypoints: times increasing, the first at time 0 and at the leader's start."""
 
+    type, unit, range = "list", "", "one or more"
     allowed = "a list of waypoints {time: s, position: [x, y, z]}, the first at time 0"
 
     def __call__(self, node: Node) -> Tuple[Waypoint, ...]:
@@ -70,12 +89,25 @@ def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
             )
 
 
-WORKSPACE = Section(WorkspaceSpec, {"lower": position(), "upper": position()})
+@dataclass(frozen=True)
+class WorkspaceSpec:
+    """A box along the axes of the fixed frame."""
+
+    lower: Vector = parameter(
+        position(),
+        "One corner of the box, in the fixed frame.",
+        allowed="below `upper` in each axis",
+    )
+    upper: Vector = parameter(position(), "The opposite corner.")
+
+
+WORKSPACE = Section(WorkspaceSpec)
 
 
 class Workspace:
     """A box of some size, or ``auto`` (None)."""
 
+    type, unit, range = "section or `auto`", "", ""
     allowed = "a section {lower: [x, y, z], upper: [x, y, z]}, or auto"
 
     def __call__(self, node: Node) -> Optional[WorkspaceSpec]:
@@ -88,12 +120,34 @@ class Workspace:
         return box
 
 
-LEADER_PATH = Section(
-    LeaderSpec,
-    {
-        "waypoints": Waypoints(),
-        "workspace": Workspace(),
-        "max_velocity": Number("m/s", above=0.0, at_most=_LARGEST_SPEED),
-        "max_acceleration": Number("m/s^2", above=0.0, at_most=1e3),
-    },
-)
+@dataclass(frozen=True)
+class LeaderSpec:
+    """The leader's scripted path, smooth between the waypoints, at rest before and after.
+
+    The other keys are limits of the leader moved by hand, not of the path.
+    """
+
+    waypoints: Tuple[Waypoint, ...] = parameter(
+        Waypoints(), "The path: smooth between the waypoints, at rest after the last."
+    )
+    workspace: Optional[WorkspaceSpec] = parameter(
+        Workspace(),
+        "Where the leader can be moved by hand. `auto`: up to 0.5 m around the path.",
+        default=None,
+        allowed="holds the leader's start",
+    )
+    max_velocity: float = parameter(
+        Number("m/s", above=0.0, at_most=_LARGEST_SPEED),
+        "Bound on every component of the leader's velocity when it is moved by hand. Keep it below "
+        "the assistants' `controller.max_velocity`, so that they can follow and give way.",
+        default=0.1,
+    )
+    max_acceleration: float = parameter(
+        Number("m/s^2", above=0.0, at_most=1e3),
+        "Bound on every component of its change. The assistants see the leader's velocity two "
+        "cycles late.",
+        default=0.25,
+    )
+
+
+LEADER_PATH = Section(LeaderSpec)

@@ -1,0 +1,62 @@
+"""What is declared of a barrier."""
+
+from dataclasses import dataclass
+from typing import Any, Callable, Dict
+
+from deformable_manipulation.scenario.parameter import parameter
+from deformable_manipulation.scenario.readers import LARGEST_COORDINATE, Number, Section
+
+
+def _nothing(*_arguments) -> Dict[str, Any]:
+    return {}
+
+
+def _no_check(*_arguments) -> None:
+    return None
+
+
+@dataclass(frozen=True)
+class BarrierKind:
+    """A barrier: its section of ``controller``, and how others speak of it.
+
+    Attributes:
+        name: key of its section, name in the C++ core, and end of the columns ``h_NAME`` and
+            ``slack_NAME``.
+        spec: dataclass of its parameters.
+        rank: its place among the barriers and in the default priority; the lowest yields last.
+        meaning: of the section, for docs/parameters.md.
+        margin: what h is, in words, for plots and summaries: "overstretch margin".
+        missed: what is the case where h is negative, for diagnostics: "overstretched".
+        default: its section where the scenario has none: None leaves the barrier out; ``NOTHING``
+            of :mod:`~..parameter` demands the section.
+        derive: what the C++ core needs beyond the parameters: called with the object, the agents
+            and the controller; gives a mapping of plain values.
+        check: called with a Report, the object, the agents and the controller; reports what does
+            not go together.
+    """
+
+    name: str
+    spec: type
+    rank: int
+    meaning: str
+    margin: str
+    missed: str
+    default: Any
+    derive: Callable[..., Dict[str, Any]] = _nothing
+    check: Callable[..., None] = _no_check
+
+    def field(self):
+        """The parameter of the section ``controller`` that holds this barrier's section."""
+        return parameter(
+            Section(self.spec),
+            self.meaning,
+            default=self.default,
+            default_text="none" if self.default is None else "all defaults",
+            native=True,
+        )
+
+
+def margin_parameter(meaning: str, default: float, live):
+    """The parameter ``margin`` that most barriers have: how far the rows stay within the limit."""
+    reader = Number("m", at_least=0.0, at_most=LARGEST_COORDINATE)
+    return parameter(reader, meaning, default=default, paper=0.0, live=live, native=True)
