@@ -10,7 +10,7 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.stretch import largest_stretch, valid_stretch
+from deformable_manipulation.simulation.stretch import largest_stretch, valid_stretch
 
 
 def summarise(

@@ -4,9 +4,8 @@ import re
 from functools import partial
 from typing import Any, Dict, Optional, Tuple
 
-from deformable_manipulation.scenario.errors import key_text, show
-from deformable_manipulation.scenario.objects import particle_position
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.errors import key_text, show
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
@@ -16,6 +15,7 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_all,
 )
+from deformable_manipulation.scenario.objects import particle_position
 from deformable_manipulation.scenario.spec import ASSISTANT, LEADER, AgentSpec
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

@@ -4,10 +4,10 @@ import math
 from itertools import combinations
 from typing import Sequence, Tuple
 
-from deformable_manipulation.scenario.errors import show
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import Report
 from deformable_manipulation.scenario.limits import limits_between
 from deformable_manipulation.scenario.objects import free_length
-from deformable_manipulation.scenario.readers import Report
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,

@@ -2,8 +2,7 @@
 
 import dataclasses
 
-from deformable_manipulation.scenario.formulation import FULL, PAPER, FormulatedSection
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.readers import (
     LARGEST_COORDINATE,
     Array,
     Auto,
@@ -14,6 +13,7 @@ from deformable_manipulation.scenario.readers import (
     Section,
     vector,
 )
+from deformable_manipulation.scenario.formulation import FULL, PAPER, FormulatedSection
 from deformable_manipulation.scenario.spec import (
     CENTRALISED,
     DECENTRALISED,

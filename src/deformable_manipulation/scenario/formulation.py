@@ -3,8 +3,8 @@
 import dataclasses
 from typing import Any, Dict
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.readers import Node, Report, Section
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import Node, Report, Section
 from deformable_manipulation.scenario.spec import DECENTRALISED, ControllerSpec
 
 FULL, PAPER = "full", "paper"

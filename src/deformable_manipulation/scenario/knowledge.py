@@ -1,7 +1,7 @@
 """The ``knowledge`` section: what the controllers of a run without ROS do not know exactly."""
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.readers import Integer, Number, Report, Section
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import Integer, Number, Report, Section
 from deformable_manipulation.scenario.spec import ControllerSpec, KnowledgeSpec
 
 _FACTOR = Number("1", at_least=0.01, at_most=100.0)

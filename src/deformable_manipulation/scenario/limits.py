@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from typing import Tuple
 
+from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.scenario.objects import free_length
-from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario, Vector
+from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario
 
 AUTO_MIN_DISTANCE = 0.10  # of the free length
 AUTO_WORKSPACE = 0.5  # m around the leader's path

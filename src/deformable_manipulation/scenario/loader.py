@@ -4,25 +4,25 @@ import dataclasses
 from pathlib import Path
 from typing import Any, Dict, Iterable, Mapping, Union
 
-from deformable_manipulation.scenario import checks, controller, simulation
-from deformable_manipulation.scenario.agents import read_agents
-from deformable_manipulation.scenario.document import read_document
-from deformable_manipulation.scenario.errors import ScenarioError
-from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.formulation import check_formulation
-from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
-from deformable_manipulation.scenario.motions import check_frames
-from deformable_manipulation.scenario.names import FRAME, ONE_LINE
-from deformable_manipulation.scenario.objects import read_object
-from deformable_manipulation.scenario.obstacles import read_obstacles
-from deformable_manipulation.scenario.overrides import Override, apply_overrides
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.document import read_document
+from deformable_manipulation.reading.errors import ScenarioError
+from deformable_manipulation.reading.names import FRAME, ONE_LINE
+from deformable_manipulation.reading.overrides import Override, apply_overrides
+from deformable_manipulation.reading.readers import (
     Custom,
     Node,
     Report,
     Section,
     Unreadable,
 )
+from deformable_manipulation.scenario import checks, controller, simulation
+from deformable_manipulation.scenario.agents import read_agents
+from deformable_manipulation.scenario.files import find_scenario
+from deformable_manipulation.scenario.formulation import check_formulation
+from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
+from deformable_manipulation.scenario.motions import check_frames
+from deformable_manipulation.scenario.objects import read_object
+from deformable_manipulation.scenario.obstacles import read_obstacles
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.scenario.waypoints import LEADER_PATH
 

@@ -3,9 +3,9 @@
 import re
 from typing import Tuple
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.names import FRAME
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.names import FRAME
+from deformable_manipulation.reading.readers import (
     Node,
     Report,
     Section,

@@ -3,13 +3,11 @@
 import dataclasses
 from typing import Tuple, Union
 
-from deformable_manipulation.distance.polygons import PolygonError, Ring, check_ring, read_ring
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.files import resolve_file
-from deformable_manipulation.scenario.meshes import MeshFile, Scale
-from deformable_manipulation.scenario.motions import MOTION
-from deformable_manipulation.scenario.names import ONE_LINE
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.polygons import PolygonError, Ring, check_ring, read_ring
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.meshes import MeshFile, Scale
+from deformable_manipulation.reading.names import ONE_LINE
+from deformable_manipulation.reading.readers import (
     Array,
     Choice,
     Custom,
@@ -21,7 +19,9 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
+from deformable_manipulation.scenario.motions import MOTION
 from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+from deformable_manipulation.system.package_files import resolve_file
 
 Obstacle = Union[PolygonObstacle, MeshObstacle]
 

@@ -1,7 +1,9 @@
 """The ``object`` section of a rope or rod, and where its particles are before it is deformed."""
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Pose, Vector
+from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
@@ -10,8 +12,7 @@ from deformable_manipulation.scenario.readers import (
     UnitQuaternion,
     position,
 )
-from deformable_manipulation.scenario.rotation import rotate
-from deformable_manipulation.scenario.spec import Pose, RodSpec, Vector
+from deformable_manipulation.scenario.spec import RodSpec
 
 POSE = Section(Pose, {"position": position(), "orientation": UnitQuaternion()})
 

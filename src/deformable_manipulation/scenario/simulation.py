@@ -3,9 +3,8 @@
 import dataclasses
 from typing import Optional
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.objects import auto_substeps
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
@@ -14,6 +13,7 @@ from deformable_manipulation.scenario.readers import (
     Section,
     vector,
 )
+from deformable_manipulation.scenario.objects import auto_substeps
 from deformable_manipulation.scenario.spec import RodSpec, SimulationSpec
 
 

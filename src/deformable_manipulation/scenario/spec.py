@@ -9,22 +9,13 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Optional, Tuple, Union
 
-Vector = Tuple[float, float, float]
-Quaternion = Tuple[float, float, float, float]
+from deformable_manipulation.geometry.pose import Pose, Quaternion, Vector
 
 LEADER = "leader"
 ASSISTANT = "assistant"
 
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Position [m] and orientation (unit quaternion x, y, z, w)."""
-
-    position: Vector = (0.0, 0.0, 0.0)
-    orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)

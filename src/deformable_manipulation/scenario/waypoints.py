@@ -3,8 +3,8 @@
 import math
 from typing import Optional, Tuple
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import Node, Number, Section, position, read_items
 from deformable_manipulation.scenario.spec import LeaderSpec, Waypoint, WorkspaceSpec
 
 TIME = Number("s", at_least=0.0, at_most=1e6)
