@@ -6,7 +6,7 @@ import numpy as np
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.obstacle_motion import moving_obstacles
+from deformable_manipulation.motion.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording import CycleRecord, CycleTimings
 from deformable_manipulation.scenario import scenario_from_mapping
 

@@ -8,10 +8,10 @@ import rospy
 import rostest
 from rospy.numpy_msg import numpy_msg
 
-from deformable_manipulation.closed_loop import ClosedLoop
 from deformable_manipulation.msg import ControllerState, ObjectState
 from deformable_manipulation.ros.conversions import agent_order, agent_positions
 from deformable_manipulation.ros.node import BUFFER_SIZE
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import scenario_from_mapping
 
 PACKAGE = "deformable_manipulation"

@@ -15,7 +15,7 @@ from faulty_run import FaultTest
 from observed_run import PACKAGE, poll, run_tests
 
 from deformable_manipulation.ros.private_master import private_master
-from deformable_manipulation.ros.program import Program
+from deformable_manipulation.system.program import Program
 
 LAUNCH = Path(__file__).resolve().parent / "fault_run.launch"
 CYCLES = 100

@@ -14,7 +14,7 @@ from observed_run import PACKAGE, run_tests
 from rosbags.rosbag1 import Reader
 
 from deformable_manipulation.ros.private_master import private_master
-from deformable_manipulation.ros.program import Program
+from deformable_manipulation.system.program import Program
 
 SCENARIO = Path(__file__).resolve().parent / "short_rope.yaml"
 CYCLES = 2000  # many more than any queue keeps

@@ -7,8 +7,8 @@ import numpy as np
 from observed_run import run_tests
 from snapshot_command import SCENARIO, SHARE, SIZE, SnapshotCommandTest, is_orange, orange_height
 
-from deformable_manipulation.closed_loop import ClosedLoop
 from deformable_manipulation.recording import RunRecorder
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 
 

@@ -8,7 +8,7 @@ import yaml
 from observed_run import poll, run_tests
 from snapshot_command import SHARE, SnapshotCommandTest, orange_height
 
-from deformable_manipulation.ros.picture import shows_scene
+from deformable_manipulation.pictures.picture import shows_scene
 
 RUN_BESIDE = {"/simulator", "/leader", "/assistants"}
 

@@ -3,8 +3,8 @@
 import xml.etree.ElementTree as ElementTree
 from xml.sax.saxutils import quoteattr
 
-from deformable_manipulation.scenario.files import PACKAGE, package_share_directory
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.package_files import PACKAGE, package_share_directory
 
 # Arguments of run.launch that a scenario's launch file sets itself, or leaves to tests.
 NOT_PASSED_ON = ("scenario", "assistants", "leader", "rviz_config", "required", "observers")

@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Optional
 
 from deformable_manipulation.authoring.places import rviz_file_of
-from deformable_manipulation.scenario.files import package_share_directory
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.package_files import package_share_directory
 
 # Of the package's own, for scenarios without one.
 _BY_TYPE = {"rod": "rope_one_assistant", "fabric": "fabric_three_assistants"}

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Dict, Optional
 
 from deformable_manipulation.authoring.yaml_edit import KeyPath, replace_scalars, scalars
-from deformable_manipulation.scenario.files import PACKAGE, package_share_directory
+from deformable_manipulation.system.package_files import PACKAGE, package_share_directory
 
 FILE_KEYS = ("polygon", "mesh")
 _MATERIAL = ("object", "material")

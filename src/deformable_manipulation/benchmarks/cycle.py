@@ -8,8 +8,8 @@ import numpy as np
 from deformable_manipulation.benchmarks.harness import Timing, no_garbage_collection
 from deformable_manipulation.benchmarks.subject import Request
 from deformable_manipulation.benchmarks.table import Column, Table
-from deformable_manipulation.closed_loop import ClosedLoop
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 
 SCENARIOS = ("rope_one_assistant", "stiff_rod_one_assistant")

@@ -4,7 +4,7 @@ from typing import Callable, List
 
 import numpy as np
 
-from deformable_manipulation.leader import LeaderPath
+from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.scenario.spec import Waypoint
 
 # Mean speed of a piece in multiples of the speed allowed: from rest to rest the peak is 15/8 of it.

@@ -10,7 +10,7 @@ from scipy.signal import butter, sosfiltfilt
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.timeseries import TimeSeries, vector_columns
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.stretch import largest_stretch
+from deformable_manipulation.simulation.stretch import largest_stretch
 
 REST_SPEED = 1e-3  # m/s, a leader slower than this is at rest
 DEADLOCK_ERROR = 0.05  # m

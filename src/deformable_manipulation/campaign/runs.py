@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from deformable_manipulation.campaign.outcome import RunOutcome, assess
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.closed_loop import ClosedLoop
 from deformable_manipulation.recording.timeseries import TimeSeries
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario.spec import Scenario
 
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
-from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-from deformable_manipulation.obstacle_motion import MovingObstacles, obstacle_places
+from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
+from deformable_manipulation.reading.errors import ScenarioError
+from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import scenario_from_mapping
-from deformable_manipulation.scenario.errors import ScenarioError
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
     FabricSpec,
@@ -21,7 +21,7 @@ from deformable_manipulation.scenario.spec import (
     RodSpec,
     Scenario,
 )
-from deformable_manipulation.simulation import make_simulation
+from deformable_manipulation.simulation.factory import make_simulation
 
 _ATTEMPTS = 20
 _BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in

@@ -15,7 +15,7 @@ from deformable_manipulation.benchmarks.rivals.environment import (
 from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
 from deformable_manipulation.commands.arguments import folder_name
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.system.interruption import exit_status, interruptible
 
 NAME = "benchmark"
 DOCUMENT = Path("docs") / "benchmarks.md"

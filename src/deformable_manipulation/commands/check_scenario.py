@@ -11,7 +11,7 @@ from deformable_manipulation.commands.launch_arguments import (
     add_launch_arguments,
     launch_problems,
 )
-from deformable_manipulation.scenario.errors import ScenarioError
+from deformable_manipulation.reading.errors import ScenarioError
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario

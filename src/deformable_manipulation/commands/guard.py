@@ -7,7 +7,7 @@ import sys
 from typing import Sequence
 
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.system.interruption import exit_status, interruptible
 
 CLOSED = 128 + signal.SIGPIPE  # exit status when the reader of a pipe has gone, as of other tools
 

@@ -5,8 +5,8 @@ import os
 from typing import Iterator, Sequence
 
 from deformable_manipulation.commands.arguments import overrides
-from deformable_manipulation.scenario.errors import Problem
-from deformable_manipulation.scenario.readers import nearest
+from deformable_manipulation.reading.errors import Problem
+from deformable_manipulation.reading.readers import nearest
 from deformable_manipulation.scenario.spec import (
     CENTRALISED,
     DECENTRALISED,

@@ -23,7 +23,7 @@ from deformable_manipulation.scenario import (
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.materials import KINDS
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.text_files import read_text
+from deformable_manipulation.system.text_files import read_text
 
 NAME = "new_scenario"
 DESCRIPTION = """Make a scenario of your own: a scenario file with comments on what to change, a

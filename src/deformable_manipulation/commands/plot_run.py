@@ -96,8 +96,8 @@ def _formats(text: str) -> List[str]:
 def _draw(run: RunData, times: Optional[Sequence[float]], show: bool) -> Dict[str, object]:
     """Figures by the names of their files."""
     # Imported late: matplotlib takes longer to load than a wrong path to be told.
-    from deformable_manipulation.overview_plot import plot_overview
-    from deformable_manipulation.plotting import plot_controller
+    from deformable_manipulation.plots.controller_plot import plot_controller
+    from deformable_manipulation.plots.overview_plot import plot_overview
 
     figures = {}
     for series in run.assistants:
@@ -125,7 +125,7 @@ def _output_folder(run: RunData, output: Optional[Path]) -> Path:
 
 
 def _save(figures, folder: Path, prefix: str, formats: Sequence[str]) -> List[Path]:
-    from deformable_manipulation.plotting import save_figure
+    from deformable_manipulation.plots.controller_plot import save_figure
 
     paths = []
     for name, figure in figures.items():

@@ -8,12 +8,12 @@ from typing import List, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import command_parser, override
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.reproduction.display import JobDisplay
 from deformable_manipulation.reproduction.jobs import JobFailed, run_jobs
 from deformable_manipulation.reproduction.plan import Plan
-from deformable_manipulation.ros.program import ProgramError
 from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_names
+from deformable_manipulation.system.interruption import exit_status, interruptible
+from deformable_manipulation.system.program import ProgramError
 
 NAME = "reproduce"
 REPORT = "report.html"

@@ -23,11 +23,11 @@ from deformable_manipulation.commands.arguments import (
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
-from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_files import atomic_file
 from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_to_yaml
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.interruption import exit_status, interruptible
 
 DESCRIPTION = """Run a scenario many times, without ROS, each time with another smooth random path
 of the leader, other obstacles of the same kind, other starts and another material, and count
@@ -240,7 +240,7 @@ def _outcomes(campaign: Campaign, arguments: argparse.Namespace):
 
 def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> None:
     from deformable_manipulation.campaign.plots import plot_campaign
-    from deformable_manipulation.plotting import save_figure
+    from deformable_manipulation.plots.controller_plot import save_figure
 
     content = {
         "scenario": campaign.scenario.name,

@@ -9,11 +9,15 @@ from typing import Optional, Sequence
 from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
-from deformable_manipulation.interruption import exit_status, interruptible, interrupts_ignored
 from deformable_manipulation.recording import RecordingError, RunRecorder
 from deformable_manipulation.recording.summary import describe
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.interruption import (
+    exit_status,
+    interruptible,
+    interrupts_ignored,
+)
 
 EXAMPLES = """examples:
   run_scenario rope_one_assistant
@@ -81,7 +85,7 @@ def _default_folder(scenario: Scenario) -> Path:
 
 def _make_loop(scenario: Scenario, safety: bool):
     # Imported late: loads the compiled simulation, which help and error messages do not need.
-    from deformable_manipulation.closed_loop import ClosedLoop
+    from deformable_manipulation.running.closed_loop import ClosedLoop
 
     return ClosedLoop(scenario, safety=safety)
 

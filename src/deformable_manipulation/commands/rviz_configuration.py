@@ -4,8 +4,8 @@ import argparse
 import sys
 from typing import Optional, Sequence
 
+from deformable_manipulation.authoring.rviz_configuration import rviz_configuration_text
 from deformable_manipulation.commands.arguments import add_scenario_arguments
-from deformable_manipulation.ros.rviz_configuration import rviz_configuration_text
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 
 _EXAMPLES = """\

@@ -20,9 +20,9 @@ from deformable_manipulation.commands.snapshot_arguments import (
     parse_arguments,
 )
 from deformable_manipulation.commands.snapshot_source import SnapshotSource, read_source
-from deformable_manipulation.interruption import exit_status, interruptible
 from deformable_manipulation.recording import RunDataError
 from deformable_manipulation.scenario import ScenarioError
+from deformable_manipulation.system.interruption import exit_status, interruptible
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -40,7 +40,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except OSError as error:
         return fail(NAME, f"cannot write the pictures: {error}")
     # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
-    from deformable_manipulation.ros.program import ProgramError
+    from deformable_manipulation.system.program import ProgramError
 
     with interruptible():
         try:
@@ -91,8 +91,8 @@ def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
 
 def _configuration(source: SnapshotSource, arguments: argparse.Namespace) -> dict:
     """RViz's configuration, as of YAML. Raises ProgramError."""
+    from deformable_manipulation.pictures.scene_view import fitted, plane_of
     from deformable_manipulation.ros.rviz_view import read_configuration
-    from deformable_manipulation.ros.scene_view import fitted, plane_of
 
     path = arguments.config or own_configuration(source.scenario, source.file)
     if path is not None:
@@ -105,8 +105,8 @@ def _configuration(source: SnapshotSource, arguments: argparse.Namespace) -> dic
 
 def _make(source: SnapshotSource, arguments: argparse.Namespace) -> None:
     from deformable_manipulation.commands.snapshot_pictures import SnapshotPictures
+    from deformable_manipulation.pictures.video_file import require_ffmpeg
     from deformable_manipulation.ros.snapshot_studio import snapshot_studio
-    from deformable_manipulation.ros.video_file import require_ffmpeg
 
     if arguments.video:
         require_ffmpeg()

@@ -16,13 +16,18 @@ from deformable_manipulation.commands.snapshot_arguments import (
     SIDE_BY_SIDE,
 )
 from deformable_manipulation.commands.snapshot_source import SnapshotSource
+from deformable_manipulation.pictures.picture import save_png
+from deformable_manipulation.pictures.picture_layout import (
+    is_alike,
+    labelled,
+    overlaid,
+    side_by_side,
+)
+from deformable_manipulation.pictures.video_file import RATE, video_file
 from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
 from deformable_manipulation.ros.label_marker import time_labels
 from deformable_manipulation.ros.obstacle_markers import MOVING_OBSTACLES
-from deformable_manipulation.ros.picture import save_png
-from deformable_manipulation.ros.picture_layout import is_alike, labelled, overlaid, side_by_side
 from deformable_manipulation.ros.rviz_view import without
-from deformable_manipulation.ros.video_file import RATE, video_file
 
 VIDEO_LENGTH = 20.0  # s, unless a speed is given
 _ROW_LETTERS, _VIDEO_LETTERS = 1 / 12, 1 / 25  # of the pictures' height

@@ -46,7 +46,7 @@ class SnapshotSource:
         if self.run is None:
             return [share * self.scenario.simulation.duration for share in _EVEN]
         # Imported late: plots.
-        from deformable_manipulation.overview_plot import snapshot_times
+        from deformable_manipulation.plots.overview_plot import snapshot_times
 
         return np.clip(snapshot_times(self.run), *self.time_range).tolist()
 
@@ -59,7 +59,7 @@ class SnapshotSource:
     def bounds(self) -> np.ndarray:
         """The corners (2, 3) [m] of what there is to be seen."""
         # Imported late: geometry of the obstacles.
-        from deformable_manipulation.ros.scene_view import planned_bounds, scene_bounds
+        from deformable_manipulation.pictures.scene_view import planned_bounds, scene_bounds
 
         if self.frames is None:
             return planned_bounds(self.scenario)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Dict, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import command_parser, folder_name
-from deformable_manipulation.interruption import exit_status, interruptible
+from deformable_manipulation.system.interruption import exit_status, interruptible
 
 NAME = "validate"
 PAGE = "validation.md"

@@ -2,7 +2,7 @@
 
 import sys
 
-from deformable_manipulation.obstacle_motion import names_without_path
+from deformable_manipulation.motion.obstacle_motion import names_without_path
 from deformable_manipulation.scenario.spec import Scenario
 
 

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from deformable_manipulation import _distance
-from deformable_manipulation.distance.mesh_files import scaled_mesh
-from deformable_manipulation.distance.planes import PLANE_AXES
-from deformable_manipulation.distance.polygons import check_ring
+from deformable_manipulation.geometry.mesh_files import scaled_mesh
+from deformable_manipulation.geometry.planes import PLANE_AXES
+from deformable_manipulation.geometry.polygons import check_ring
 from deformable_manipulation.scenario.spec import MeshObstacle
 
 SELECTIONS = ("local", "elements")

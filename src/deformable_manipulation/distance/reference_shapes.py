@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from deformable_manipulation.distance.mesh_files import scaled_mesh
-from deformable_manipulation.distance.planes import PlaneFrame
-from deformable_manipulation.distance.polygons import check_ring
-from deformable_manipulation.scenario.rotation import rotate
+from deformable_manipulation.geometry.mesh_files import scaled_mesh
+from deformable_manipulation.geometry.planes import PlaneFrame
+from deformable_manipulation.geometry.polygons import check_ring
+from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle
 
 _TOUCHING = 1e-9  # m

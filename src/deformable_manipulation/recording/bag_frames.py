@@ -8,7 +8,7 @@ import yaml
 from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from deformable_manipulation.obstacle_motion import moving_obstacles
+from deformable_manipulation.motion.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording.bag_index import DAMAGED, open_bag
 from deformable_manipulation.recording.bag_run_info import TOPIC, connections_of, read_run_info
 from deformable_manipulation.recording.bag_track import DISTANCES

@@ -13,7 +13,7 @@ from rosbags.serde import SerdeError
 from rosbags.typesys import TypesysError
 
 from deformable_manipulation.recording.run_data import RunDataError
-from deformable_manipulation.text_files import TextFileError, read_start
+from deformable_manipulation.system.text_files import TextFileError, read_start
 
 MAGIC = b"#ROSBAG V2.0\n"
 RECOVERED = "the recorder had not finished this bag; read from a repaired copy"

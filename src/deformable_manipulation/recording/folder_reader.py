@@ -17,8 +17,8 @@ from deformable_manipulation.recording.run_data import (
     make_assistant_series,
     offset_of,
 )
-from deformable_manipulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
-from deformable_manipulation.text_files import TextFileError, read_text
+from deformable_manipulation.simulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
+from deformable_manipulation.system.text_files import TextFileError, read_text
 
 STATUS_SUFFIX = ".status"  # only assistants have a status
 

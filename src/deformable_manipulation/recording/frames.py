@@ -8,12 +8,12 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.obstacle_motion import placed_obstacles
+from deformable_manipulation.motion.obstacle_motion import placed_obstacles
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import RunData, RunDataError
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.text_files import open_regular
+from deformable_manipulation.system.text_files import open_regular
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from deformable_manipulation.obstacle_motion import moving_obstacles, names_without_path
+from deformable_manipulation.motion.obstacle_motion import moving_obstacles, names_without_path
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunDataError
 from deformable_manipulation.scenario.spec import PathMotion, PoseWaypoint, Scenario

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from deformable_manipulation.obstacle_motion import moving_obstacles
+from deformable_manipulation.motion.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.summary import summarise, write_summary
 from deformable_manipulation.recording.timeseries import CycleRecord, TimeSeries

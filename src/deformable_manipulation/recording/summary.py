@@ -11,7 +11,7 @@ from deformable_manipulation.recording.provenance import machine, package_versio
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.stretch import largest_stretch, valid_stretch
+from deformable_manipulation.simulation.stretch import largest_stretch, valid_stretch
 
 
 def summarise(
@@ -20,7 +20,8 @@ def summarise(
     """The numbers of a run; None where there is none (no obstacle, nothing recorded).
 
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
-    ``min_margin`` the lowest h of each barrier, ``max_stretch`` the largest relative change of length anywhere in it; where that is more than
+    ``min_margin`` the lowest h of each barrier over the run, ``max_stretch`` the largest
+    relative change of length anywhere in it; where that is more than
     what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
     Lengths are in m, times in s unless the key says ms. Of ``timing``, ``solver`` is one quadratic
     program where the nominal velocity alone would not do.

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Iterable, List, Tuple
 
-from deformable_manipulation.interruption import check_interruption
 from deformable_manipulation.reproduction.display import JobDisplay, Running
-from deformable_manipulation.ros.program import Program
+from deformable_manipulation.system.interruption import check_interruption
+from deformable_manipulation.system.program import Program
 
 _POLLING_PERIOD = 0.1  # s
 _TAIL = 300  # bytes of a log that hold its last line
@@ -33,7 +33,7 @@ def run_jobs(jobs: Iterable[Job], parallel: int, display: JobDisplay) -> None:
 
     Raises:
         JobFailed: a job failed; the others have been ended.
-        deformable_manipulation.ros.program.ProgramError: one cannot be started.
+        deformable_manipulation.system.program.ProgramError: one cannot be started.
     """
     waiting = list(jobs)
     running: List[_RunningJob] = []

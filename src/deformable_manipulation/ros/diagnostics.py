@@ -3,8 +3,8 @@
 import rospy
 from diagnostic_updater import Updater
 
+from deformable_manipulation.cycles.health import CycleMonitor
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.health import CycleMonitor
 
 _PERIOD = 1.0  # s of real time, whatever the ROS clock does
 
@@ -13,8 +13,8 @@ def publish_diagnostics(reports):
     """Publish reports once per second, until shutdown.
 
     Args:
-        reports: name -> function that gives a :class:`~deformable_manipulation.ros.health.Report`;
-            they appear as "<node>: <name>".
+        reports: name -> function that gives a
+            :class:`~deformable_manipulation.cycles.health.Report`; they appear as "<node>: <name>".
     """
     updater = Updater()
     updater.setHardwareID("none")

@@ -7,18 +7,18 @@ import numpy as np
 import rospy
 from rospy.numpy_msg import numpy_msg
 
-from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.cycles.health import input_report
 from deformable_manipulation.distance.features import Distances as DistanceFeatures
 from deformable_manipulation.msg import Distances
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import MessageError, fill_distances, points_of
 from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
-from deformable_manipulation.ros.health import input_report
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.obstacle_frames import ObstacleFrames
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.ros.obstacle_tracker import ObstacleTracker
 from deformable_manipulation.ros.overrun_report import age_of
+from deformable_manipulation.running.closed_loop import make_minimum_distance
 
 
 class Computed(NamedTuple):

@@ -16,8 +16,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.ros.launched_run import launch_command
-from deformable_manipulation.ros.process_usage import usage_of
-from deformable_manipulation.ros.program import Program, ProgramError
+from deformable_manipulation.system.process_usage import usage_of
+from deformable_manipulation.system.program import Program, ProgramError
 
 _START = 120.0  # s, for the object to settle and all nodes to work
 _PATIENCE = 30.0  # s, beyond the recording's length

@@ -4,7 +4,7 @@ import rospy
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from tf2_msgs.msg import TFMessage
 
-from deformable_manipulation.obstacle_motion import moving_obstacles
+from deformable_manipulation.motion.obstacle_motion import moving_obstacles
 from deformable_manipulation.ros.obstacle_markers import obstacle_frame
 
 

@@ -9,9 +9,9 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from deformable_manipulation.distance.mesh_files import scaled_mesh
-from deformable_manipulation.distance.planes import PlaneFrame
-from deformable_manipulation.scenario.rotation import rotate
+from deformable_manipulation.geometry.mesh_files import scaled_mesh
+from deformable_manipulation.geometry.planes import PlaneFrame
+from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle
 
 # A mesh of more triangles is read from its file by RViz itself: to send it again and again for

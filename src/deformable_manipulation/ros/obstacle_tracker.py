@@ -3,10 +3,10 @@
 import rospy
 from geometry_msgs.msg import PoseStamped
 
-from deformable_manipulation.obstacle_motion import MovingObstacles, moving_obstacles
-from deformable_manipulation.pose_track import PoseTrack
+from deformable_manipulation.cycles.input_watch import find_age_fault
+from deformable_manipulation.motion.obstacle_motion import MovingObstacles, moving_obstacles
+from deformable_manipulation.motion.pose_track import PoseTrack
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.input_watch import find_age_fault
 from deformable_manipulation.scenario.spec import FrameMotion, TopicMotion
 
 

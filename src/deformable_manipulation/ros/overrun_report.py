@@ -2,8 +2,8 @@
 
 import rospy
 
+from deformable_manipulation.cycles.cycle_counter import CycleCounter
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.cycle_counter import CycleCounter
 
 
 def age_of(state):

@@ -9,8 +9,8 @@ from rospy.numpy_msg import numpy_msg
 
 from deformable_manipulation.msg import ObjectState
 from deformable_manipulation.ros.launched_run import playback_command
-from deformable_manipulation.ros.program import Program
 from deformable_manipulation.ros.target_markers import target_markers
+from deformable_manipulation.system.program import Program
 
 _TIMEOUT = 60.0  # s of real time, for the nodes to start
 _START_OF_TIME = 1.0  # s, of stamps: zero means "not known yet"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import rosgraph
 
-from deformable_manipulation.ros.program import Program, ProgramError
+from deformable_manipulation.system.program import Program, ProgramError
 
 _TIMEOUT = 60.0  # s, for the master to answer
 _ATTEMPTS = 3

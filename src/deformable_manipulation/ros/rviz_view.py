@@ -8,8 +8,8 @@ from pathlib import Path
 import rosgraph
 import yaml
 
-from deformable_manipulation.ros.program import Program, ProgramError
-from deformable_manipulation.text_files import TextFileError, read_text
+from deformable_manipulation.system.program import Program, ProgramError
+from deformable_manipulation.system.text_files import TextFileError, read_text
 
 _NODE = "/snapshot_view"
 _HANDLES = "rviz/InteractiveMarkers"  # nobody drags anything in a picture

@@ -7,14 +7,14 @@ from pathlib import Path
 import rospy
 from visualization_msgs.msg import MarkerArray
 
+from deformable_manipulation.pictures.picture import PictureAtRest
 from deformable_manipulation.ros.label_marker import label_markers
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.marker_watch import MarkerWatch
-from deformable_manipulation.ros.picture import PictureAtRest
 from deformable_manipulation.ros.private_master import private_master
-from deformable_manipulation.ros.program import ProgramCrashed
 from deformable_manipulation.ros.rviz_view import rviz_view, with_frame_rate
 from deformable_manipulation.ros.virtual_display import virtual_display
+from deformable_manipulation.system.program import ProgramCrashed
 
 _CRASHES = 2  # RViz corrupts its memory now and then while it starts
 _FILM_RATE = 30  # Hz, at which RViz draws while it is filmed

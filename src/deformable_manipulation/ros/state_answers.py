@@ -5,11 +5,11 @@ import time
 import rospy
 
 from deformable_manipulation.control.team import teams
+from deformable_manipulation.cycles.health import input_report
+from deformable_manipulation.cycles.input_watch import find_age_fault
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.conversions import MessageError, to_observation
 from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
-from deformable_manipulation.ros.health import input_report
-from deformable_manipulation.ros.input_watch import find_age_fault
 from deformable_manipulation.ros.overrun_report import OverrunReport, age_of
 from deformable_manipulation.ros.team import Team
 

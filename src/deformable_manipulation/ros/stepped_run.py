@@ -10,8 +10,8 @@ from std_srvs.srv import SetBool
 from deformable_manipulation.msg import ObjectState
 from deformable_manipulation.ros.launched_run import launch_command
 from deformable_manipulation.ros.node import BUFFER_SIZE
-from deformable_manipulation.ros.program import Program, ProgramError
 from deformable_manipulation.srv import Step
+from deformable_manipulation.system.program import Program, ProgramError
 
 _TIMEOUT = 60.0  # s of real time, for the nodes to start and for a cycle
 

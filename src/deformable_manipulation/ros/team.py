@@ -8,9 +8,9 @@ from visualization_msgs.msg import MarkerArray
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.team import TeamController
+from deformable_manipulation.cycles.health import DecisionMonitor
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.assistant_link import AssistantLink
-from deformable_manipulation.ros.health import DecisionMonitor
 from deformable_manipulation.ros.live_parameters import LiveParameters
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.target_markers import target_markers

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from deformable_manipulation.ros.program import Program, ProgramError
+from deformable_manipulation.system.program import Program, ProgramError
 
 _TIMEOUT = 30.0  # s, for the X server to be ready
 

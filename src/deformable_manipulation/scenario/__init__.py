@@ -1,7 +1,7 @@
 """The scenario file: reading it, checking it, writing it with everything filled in."""
 
-from deformable_manipulation.scenario.errors import Problem, ScenarioError
-from deformable_manipulation.scenario.files import package_share_directory, scenario_names
+from deformable_manipulation.reading.errors import Problem, ScenarioError
+from deformable_manipulation.scenario.files import scenario_names
 from deformable_manipulation.scenario.limits import PairLimits, leader_workspace, pair_limits
 from deformable_manipulation.scenario.loader import (
     load_scenario,
@@ -13,6 +13,7 @@ from deformable_manipulation.scenario.mapping import (
     scenario_to_mapping,
     scenario_to_yaml,
 )
+from deformable_manipulation.system.package_files import package_share_directory
 
 __all__ = [
     "PairLimits",

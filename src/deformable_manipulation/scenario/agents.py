@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Dict, Optional, Tuple
 
-from deformable_manipulation.scenario.errors import key_text, show
-from deformable_manipulation.scenario.objects import particle_position
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.reading.errors import key_text, show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
@@ -18,7 +18,7 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_all,
 )
-from deformable_manipulation.scenario.values import Quaternion, Vector
+from deformable_manipulation.scenario.objects import particle_position
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 

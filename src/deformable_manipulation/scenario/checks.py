@@ -4,12 +4,12 @@ import math
 from itertools import combinations
 from typing import Sequence, Tuple
 
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import declared
+from deformable_manipulation.reading.readers import Report, Slopes
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.barriers.pairs import limits_between
-from deformable_manipulation.scenario.errors import show
 from deformable_manipulation.scenario.objects import free_length
-from deformable_manipulation.scenario.parameter import declared
-from deformable_manipulation.scenario.readers import Report, Slopes
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,

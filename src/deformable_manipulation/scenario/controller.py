@@ -4,16 +4,16 @@ import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, List, Optional, Tuple
 
-from deformable_manipulation.scenario.barriers import BARRIERS
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.parameter import (
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import (
     NOTHING,
     Live,
     Parameter,
     declared_below,
     parameter,
 )
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.readers import (
     Array,
     Choice,
     Flag,
@@ -22,7 +22,7 @@ from deformable_manipulation.scenario.readers import (
     Report,
     vector,
 )
-from deformable_manipulation.scenario.values import Vector
+from deformable_manipulation.scenario.barriers import BARRIERS
 
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
@@ -111,8 +111,8 @@ class _ControllerKeys:
     )
     weights: Vector = parameter(
         vector("1", at_least=1e-6, at_most=1e6),
-        "gamma: cost of leaving the nominal velocity, per axis. Raise one to keep an assistant from "
-        "giving way along that axis.",
+        "gamma: cost of leaving the nominal velocity, per axis. Raise one to keep an assistant "
+        "from giving way along that axis.",
         default=(1.0, 1.0, 1.0),
         allowed="at most a factor of 100 apart",
         live=Live(("weight_x", "weight_y", "weight_z"), 0.01, 100.0),

@@ -3,20 +3,20 @@
 from functools import lru_cache
 from typing import Any, Dict, Tuple
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
-from deformable_manipulation.scenario.meshes import InlineMesh, Mesh, Scale, scaled
-from deformable_manipulation.scenario.object_specs import FabricSpec
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.meshes import InlineMesh, Mesh, Scale, scaled
+from deformable_manipulation.reading.readers import (
     Array,
     Node,
     Number,
     Section,
     Unreadable,
 )
+from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
+from deformable_manipulation.scenario.object_specs import FabricSpec
 from deformable_manipulation.scenario.rod import DAMPING, POSE
-from deformable_manipulation.scenario.rotation import rotate
-from deformable_manipulation.scenario.values import Vector
 
 FABRIC = Section(
     FabricSpec,
@@ -118,7 +118,7 @@ def _key_path(node: Node, key: str) -> Tuple[str, ...]:
 def _body(fabric: FabricSpec):
     # Imported late: loads the compiled simulation, which scenarios of rods do not need.
     from deformable_manipulation.scenario.simulation import SimulationSpec
-    from deformable_manipulation.simulation import make_body
+    from deformable_manipulation.simulation.factory import make_body
 
     return make_body(fabric, SimulationSpec(duration=1.0))
 

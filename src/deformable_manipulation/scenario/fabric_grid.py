@@ -2,9 +2,9 @@
 
 from typing import Sequence, Tuple
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.meshes import Mesh
-from deformable_manipulation.scenario.readers import Node, Unreadable
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.meshes import Mesh
+from deformable_manipulation.reading.readers import Node, Unreadable
 
 LARGEST_PARTICLE_COUNT = 20000
 _WHOLE = 1e-6  # relative; sizes and resolutions are typed with a few digits

@@ -3,12 +3,12 @@
 import dataclasses
 from typing import Any, Dict
 
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import ANY, declared_below
+from deformable_manipulation.reading.readers import Node, Report, Section
 from deformable_manipulation.scenario.controller import PAPER, ControllerSpec
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.parameter import ANY, declared_below
-from deformable_manipulation.scenario.readers import Node, Report, Section
 
-# The paper's values, by key path: defaults with ``formulation: paper``, and nothing else is allowed.
+# The paper's values, by key path: defaults with ``formulation: paper``, and no others are allowed.
 PAPERS = {
     path: declaration.paper
     for path, declaration in declared_below(ControllerSpec)
@@ -31,7 +31,7 @@ CONTROLLER = FormulatedSection(ControllerSpec, defaults={"jacobian": None})
 
 
 def _completed(given: Dict[str, Any]) -> Dict[str, Any]:
-    """``given`` with the paper's values for what it lacks; sections that are none stay as they are."""
+    """``given`` with the paper's values for what it lacks; what is no section stays as it is."""
     completed = dict(given)
     for path, value in PAPERS.items():
         section = completed

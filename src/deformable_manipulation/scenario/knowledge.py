@@ -3,10 +3,10 @@
 import dataclasses
 from dataclasses import dataclass
 
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import Integer, Number, Report, Section
 from deformable_manipulation.scenario.controller import ControllerSpec
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import Integer, Number, Report, Section
 
 _FACTOR = Number("1", at_least=0.01, at_most=100.0)
 

@@ -5,7 +5,7 @@ from typing import Any, Dict
 
 import yaml
 
-from deformable_manipulation.scenario.readers import Section
+from deformable_manipulation.reading.readers import Section
 from deformable_manipulation.scenario.spec import (
     AgentSpec,
     FabricSpec,

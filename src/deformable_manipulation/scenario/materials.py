@@ -6,9 +6,9 @@ from typing import Any, Callable, Dict, Mapping
 
 import yaml
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.files import package_share_directory
-from deformable_manipulation.scenario.readers import Node, Unreadable, nearest
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import Node, Unreadable, nearest
+from deformable_manipulation.system.package_files import package_share_directory
 
 KINDS = ("rod", "fabric")
 NOTES = ("about", "source")  # what a preset has beside keys of the object

@@ -4,10 +4,11 @@ import re
 from dataclasses import dataclass
 from typing import Tuple, Union
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.names import FRAME
-from deformable_manipulation.scenario.parameter import declared, parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.names import FRAME
+from deformable_manipulation.reading.parameter import declared, parameter
+from deformable_manipulation.reading.readers import (
     Node,
     Report,
     Section,
@@ -16,7 +17,6 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.values import Quaternion, Vector
 from deformable_manipulation.scenario.waypoints import TIME, check_times
 
 
@@ -67,8 +67,8 @@ class PathMotion:
 
     waypoints: Tuple[PoseWaypoint, ...] = parameter(
         _PoseWaypoints(),
-        "A path, smooth between the waypoints like the leader's, at rest before the first and after "
-        "the last. Time counts from the start or reset of the run.",
+        "A path, smooth between the waypoints like the leader's, at rest before the first and "
+        "after the last. Time counts from the start or reset of the run.",
     )
 
 

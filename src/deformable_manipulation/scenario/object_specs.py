@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Tuple
 
-from deformable_manipulation.scenario.values import Pose, Vector
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.pose import Pose
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,8 @@ A further type adds a line to ``_READERS`` and registers with the functions belo
 import math
 from functools import singledispatch
 
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.fabric import (
     fabric_free_length,
     fabric_particle_position,
@@ -13,13 +15,11 @@ from deformable_manipulation.scenario.fabric import (
 )
 from deformable_manipulation.scenario.materials import read_with_material
 from deformable_manipulation.scenario.object_specs import FabricSpec, RodSpec
-from deformable_manipulation.scenario.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.rod import (
     read_rod,
     rod_free_length,
     rod_particle_position,
 )
-from deformable_manipulation.scenario.values import Vector
 
 _READERS = {"rod": read_rod, "fabric": read_fabric}
 _TYPE = Choice(*_READERS)

@@ -4,14 +4,13 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Optional, Tuple, Union
 
-from deformable_manipulation.distance.polygons import PolygonError, Ring, check_ring, read_ring
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.files import resolve_file
-from deformable_manipulation.scenario.meshes import MeshFile, Scale
-from deformable_manipulation.scenario.motions import MOTION, Motion
-from deformable_manipulation.scenario.names import ONE_LINE
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.polygons import PolygonError, Ring, check_ring, read_ring
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.meshes import MeshFile, Scale
+from deformable_manipulation.reading.names import ONE_LINE
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import (
     Array,
     Choice,
     Custom,
@@ -23,7 +22,8 @@ from deformable_manipulation.scenario.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.values import Quaternion, Vector
+from deformable_manipulation.scenario.motions import MOTION, Motion
+from deformable_manipulation.system.package_files import resolve_file
 
 _POINT = Array(2, Number("m"), "[a, b]")
 

@@ -1,18 +1,17 @@
 """The ``object`` section of a rope or rod, and where its particles are before it is deformed."""
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.object_specs import RodSpec
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.pose import POSE
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
     Number,
     Section,
 )
-from deformable_manipulation.scenario.rotation import rotate
-from deformable_manipulation.scenario.values import Pose, Vector
-
-POSE = Section(Pose)
+from deformable_manipulation.scenario.object_specs import RodSpec
 
 LARGEST_MODULUS = 1e13  # Pa, ten times that of diamond
 DAMPING = Number("1/s", at_least=0.0, at_most=1e4)

@@ -4,10 +4,10 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Optional
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.objects import auto_substeps
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
     Node,
@@ -16,7 +16,7 @@ from deformable_manipulation.scenario.readers import (
     Section,
     vector,
 )
-from deformable_manipulation.scenario.values import Vector
+from deformable_manipulation.scenario.objects import auto_substeps
 
 
 class Substeps(Integer):

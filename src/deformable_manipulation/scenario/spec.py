@@ -9,6 +9,11 @@ section's class is declared in a module of its own, with all that is to know of 
 from dataclasses import dataclass
 from typing import Tuple, Union
 
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.reading.names import FRAME, ONE_LINE
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.pose import Pose
+from deformable_manipulation.reading.readers import Custom
 from deformable_manipulation.scenario.agents import ASSISTANT, LEADER, AgentSpec
 from deformable_manipulation.scenario.barriers.collision import CollisionSpec
 from deformable_manipulation.scenario.barriers.overstretch import OverstretchSpec
@@ -27,7 +32,6 @@ from deformable_manipulation.scenario.motions import (
     PoseWaypoint,
     TopicMotion,
 )
-from deformable_manipulation.scenario.names import FRAME, ONE_LINE
 from deformable_manipulation.scenario.object_specs import FabricSpec, RodSpec
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import (
@@ -36,10 +40,7 @@ from deformable_manipulation.scenario.obstacles import (
     PolygonObstacle,
     read_obstacles,
 )
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import Custom
 from deformable_manipulation.scenario.simulation import SIMULATION, SimulationSpec
-from deformable_manipulation.scenario.values import Pose, Quaternion, Vector
 from deformable_manipulation.scenario.waypoints import (
     LEADER_PATH,
     LeaderSpec,
@@ -84,8 +85,8 @@ class Scenario:
 
     name: str = parameter(
         ONE_LINE,
-        "Goes into the summary, the plots and the names of recordings. A copied file keeps it until "
-        "you change it (`check_scenario` warns, `new_scenario --from` changes it).",
+        "Goes into the summary, the plots and the names of recordings. A copied file keeps it "
+        "until you change it (`check_scenario` warns, `new_scenario --from` changes it).",
         default_text="the file's name without `.yaml`",
     )
     object: Union[RodSpec, FabricSpec] = parameter(

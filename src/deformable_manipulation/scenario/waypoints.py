@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import Node, Number, Section, position, read_items
-from deformable_manipulation.scenario.values import Vector
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import Node, Number, Section, position, read_items
 
 TIME = Number("s", at_least=0.0, at_most=1e6)
 _SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end

@@ -7,10 +7,10 @@ import pytest
 
 from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
-from deformable_manipulation.closed_loop import make_minimum_distance
-from deformable_manipulation.leader import LeaderPath
+from deformable_manipulation.motion.leader import LeaderPath
+from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario
-from deformable_manipulation.simulation import make_simulation
+from deformable_manipulation.simulation.factory import make_simulation
 
 RANGES = Ranges(speed=0.15, duration=60.0)
 

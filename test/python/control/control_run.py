@@ -7,7 +7,7 @@ import control_builders as build
 import numpy as np
 
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.leader import LeaderController
+from deformable_manipulation.motion.leader import LeaderController
 
 GROUND = build.HalfSpace((0.0, 0.0, 1.0), 0.0)
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from deformable_manipulation.closed_loop import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.distance.reference import ReferenceMinimumDistance
+from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.spec import FabricSpec, MeshObstacle
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import yaml
 
-from deformable_manipulation.obstacle_motion import ObstaclePath
+from deformable_manipulation.motion.obstacle_motion import ObstaclePath
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.recorded_motion import with_recorded_motion
 from deformable_manipulation.recording.run_data import RunDataError

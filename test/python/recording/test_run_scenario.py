@@ -40,7 +40,7 @@ class ReplayLoop:
 
 @pytest.fixture
 def loop(monkeypatch):
-    module = types.ModuleType("deformable_manipulation.closed_loop")
+    module = types.ModuleType("deformable_manipulation.running.closed_loop")
     module.ClosedLoop = type("Loop", (ReplayLoop,), {"runs": []})
     monkeypatch.setitem(sys.modules, module.__name__, module)
     return module.ClosedLoop

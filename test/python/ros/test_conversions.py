@@ -9,14 +9,14 @@ import pytest
 from geometry_msgs.msg import TwistStamped
 from messages import distances_message, state_message, transmitted
 
-from deformable_manipulation.closed_loop import ClosedLoop, make_minimum_distance
 from deformable_manipulation.control.observation import find_fault
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import conversions
 from deformable_manipulation.ros.conversions import MessageError
+from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
 from deformable_manipulation.scenario import load_scenario
-from deformable_manipulation.simulation import make_simulation
+from deformable_manipulation.simulation.factory import make_simulation
 
 TWO_ASSISTANTS = Path(__file__).resolve().parents[2] / "rostest" / "two_assistants.yaml"
 FILE_ORDER = ["leader", "middle_assistant", "end_assistant"]

@@ -3,9 +3,9 @@ import copy
 import pytest
 import yaml
 
-from deformable_manipulation.ros.program import ProgramError
 from deformable_manipulation.ros.rviz_view import bare_view, read_configuration
 from deformable_manipulation.scenario import package_share_directory
+from deformable_manipulation.system.program import ProgramError
 
 FOLDER = package_share_directory() / "rviz"
 

@@ -3,8 +3,8 @@ import struct
 import numpy as np
 import pytest
 
-from deformable_manipulation.ros.program import ProgramError
 from deformable_manipulation.ros.virtual_display import read_window_dump
+from deformable_manipulation.system.program import ProgramError
 
 NAME = b"screen\0\0"
 

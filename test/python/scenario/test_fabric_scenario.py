@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from deformable_manipulation.closed_loop import make_minimum_distance
+from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario, pair_limits
 from deformable_manipulation.scenario.objects import particle_position
-from deformable_manipulation.simulation import make_simulation
+from deformable_manipulation.simulation.factory import make_simulation
 
 
 @pytest.fixture(scope="module")

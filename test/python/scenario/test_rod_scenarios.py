@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from deformable_manipulation.scenario import load_scenario, pair_limits
-from deformable_manipulation.simulation import make_simulation
+from deformable_manipulation.simulation.factory import make_simulation
 
 ROPE, STIFF_ROD = "rope_one_assistant", "stiff_rod_one_assistant"
 TWO_ASSISTANTS = "rope_two_assistants"

@@ -9,9 +9,7 @@ import yaml
 
 from deformable_manipulation.scenario import (
     ScenarioError,
-    files,
     load_scenario,
-    package_share_directory,
     pair_limits,
     scenario_from_mapping,
 )
@@ -118,29 +116,6 @@ def test_polygon_files_of_this_package(mapping, change, tmp_path):
 def test_polygon_files_of_an_unknown_package(mapping, change, problems_of):
     change(mapping, "obstacles.0.polygon", "package://no_such_package_here/ground.csv")
     assert "no_such_package_here" in problems_of(mapping)["obstacles.0.polygon"]
-
-
-def test_share_directory_of_the_checkout():
-    assert (package_share_directory() / "config" / "scenarios").is_dir()
-
-
-def test_share_directory_of_an_install_space(tmp_path, monkeypatch):
-    share = tmp_path / "share" / "deformable_manipulation"
-    share.mkdir(parents=True)
-    (share / "package.xml").write_text("<package><name>deformable_manipulation</name></package>")
-    module = tmp_path / "lib/python3/dist-packages/deformable_manipulation/scenario/files.py"
-    monkeypatch.setattr(files, "__file__", str(module))
-    assert package_share_directory() == share.resolve()
-
-
-def test_share_directory_passes_over_other_packages(tmp_path, monkeypatch):
-    (tmp_path / "package.xml").write_text("<package><name>another</name></package>")
-    monkeypatch.setattr(files, "__file__", str(tmp_path / "files.py"))
-    monkeypatch.setattr(files, "_ros_package", lambda name: Path("/by/ros") / name)
-    assert package_share_directory() == Path("/by/ros/deformable_manipulation")
-    monkeypatch.setattr(files, "_ros_package", lambda name: None)
-    with pytest.raises(FileNotFoundError, match="setup.bash"):
-        package_share_directory()
 
 
 def test_scenario_by_its_bare_name(tmp_path, monkeypatch):

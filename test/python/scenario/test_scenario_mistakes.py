@@ -2,8 +2,8 @@
 
 import pytest
 
+from deformable_manipulation.reading.document import parse_document
 from deformable_manipulation.scenario import ScenarioError, load_scenario
-from deformable_manipulation.scenario.document import parse_document
 
 WRONG_VALUES = [
     ("name", "", "one line"),

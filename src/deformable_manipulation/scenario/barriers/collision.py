@@ -3,15 +3,15 @@
 from dataclasses import dataclass
 from typing import Tuple
 
-from deformable_manipulation.scenario.barriers.kind import BarrierKind, margin_parameter
-from deformable_manipulation.scenario.parameter import NOTHING, Live, parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.parameter import NOTHING, Live, parameter
+from deformable_manipulation.reading.readers import (
     LARGEST_COORDINATE,
     Choice,
     Flag,
     Number,
     Slopes,
 )
+from deformable_manipulation.scenario.barriers.kind import BarrierKind, margin_parameter
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any, Callable, Dict
 
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import LARGEST_COORDINATE, Number, Section
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number, Section
 
 
 def _nothing(*_arguments) -> Dict[str, Any]:

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from deformable_manipulation.reading.parameter import Live, parameter
+from deformable_manipulation.reading.readers import Auto, Number, Slopes
 from deformable_manipulation.scenario.barriers.kind import BarrierKind, margin_parameter
 from deformable_manipulation.scenario.barriers.pairs import limit_matrix
-from deformable_manipulation.scenario.parameter import Live, parameter
-from deformable_manipulation.scenario.readers import Auto, Number, Slopes
 
 
 @dataclass(frozen=True)

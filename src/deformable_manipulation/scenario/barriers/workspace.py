@@ -4,10 +4,9 @@ import math
 from dataclasses import dataclass
 from typing import Tuple
 
-from deformable_manipulation.scenario.barriers.kind import BarrierKind, margin_parameter
-from deformable_manipulation.scenario.errors import show
-from deformable_manipulation.scenario.parameter import parameter
-from deformable_manipulation.scenario.readers import (
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.readers import (
     LARGEST_COORDINATE,
     Array,
     Items,
@@ -17,6 +16,7 @@ from deformable_manipulation.scenario.readers import (
     Slopes,
     position,
 )
+from deformable_manipulation.scenario.barriers.kind import BarrierKind, margin_parameter
 
 Vector = Tuple[float, float, float]
 _EVERYWHERE = (LARGEST_COORDINATE,) * 3
@@ -81,8 +81,8 @@ class WorkspaceBarrierSpec:
     )
     planes: Tuple[PlaneSpec, ...] = parameter(
         Items(PLANE),
-        "Planes such as a table or a wall, each `{point: [x, y, z], normal: [x, y, z]}`; the normal "
-        "points to the side on which the held points stay.",
+        "Planes such as a table or a wall, each `{point: [x, y, z], normal: [x, y, z]}`; the "
+        "normal points to the side on which the held points stay.",
         default=(),
         native=True,
     )

@@ -1,0 +1,1 @@
+"""How a node's messages go together cycle by cycle, and how it fares."""

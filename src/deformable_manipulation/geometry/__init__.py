@@ -1,0 +1,1 @@
+"""Rotations, planes, polygons and meshes."""

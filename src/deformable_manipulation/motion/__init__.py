@@ -1,0 +1,1 @@
+"""How leader and obstacles move: along their paths, as measured, or by hand."""

@@ -1,0 +1,143 @@
+"""The leader, or an obstacle, moved by hand."""
+
+import time
+
+import numpy as np
+
+from deformable_manipulation.motion.bounded_motion import BoundedMotion
+from deformable_manipulation.motion.leader import LeaderController
+from deformable_manipulation.scenario import leader_workspace
+
+# RViz repeats that a marker is held four times per second.
+DRAG_TIMEOUT = 1.0  # s
+
+PATH, DRAGGED, STEERED, RESTING = "path", "dragged", "steered", "resting"
+
+
+class Hand:
+    """What a hand wants: a place to go to, a velocity, or rest.
+
+    A dead man's control: rest where no more comes, for ``DRAG_TIMEOUT`` or ``steer_timeout`` [s].
+
+    Args:
+        motion: :class:`~.bounded_motion.BoundedMotion`, which bounds what it gets.
+        steer_timeout: [s].
+        clock: seconds, never decreasing.
+    """
+
+    def __init__(self, motion, steer_timeout, clock=time.monotonic):
+        self._motion = motion
+        self._steer_timeout = steer_timeout
+        self._clock = clock
+        self.release()
+
+    def release(self):
+        """Rest from now on."""
+        self._target = self._wanted = None
+        self._deadline = self._clock()
+
+    def drag(self, position):
+        """Go to a position (3,) [m] of the fixed frame, or the nearest that is allowed.
+
+        Raises:
+            ValueError: it is not three finite numbers; the message says so.
+        """
+        self._target, self._wanted = _three_finite(position, "position"), None
+        self._deadline = self._clock() + DRAG_TIMEOUT
+
+    def steer(self, velocity):
+        """Move with a velocity (3,) [m/s] of the fixed frame, as far as the limits allow.
+
+        Raises:
+            ValueError: it is not three finite numbers; the message says so.
+        """
+        self._wanted, self._target = _three_finite(velocity, "velocity"), None
+        self._deadline = self._clock() + self._steer_timeout
+
+    @property
+    def source(self):
+        """DRAGGED, STEERED or RESTING."""
+        if self._target is None and self._wanted is None or self._clock() > self._deadline:
+            return RESTING
+        return STEERED if self._target is None else DRAGGED
+
+    def velocity(self, position, velocity):
+        """The next velocity (3,) [m/s] of what is at a position (3,) [m] with a velocity (3,)."""
+        source = self.source
+        if source == DRAGGED:
+            return self._motion.towards(self._target, position, velocity)
+        wanted = self._wanted if source == STEERED else (0.0, 0.0, 0.0)
+        return self._motion.along(wanted, position, velocity)
+
+
+class SteeredLeader:
+    """The leader's velocity: along its path, or by hand from the first time that a hand takes it.
+
+    By hand it stays within ``leader.workspace``, ``leader.max_velocity`` and
+    ``leader.max_acceleration``. The path is taken up again by :meth:`reset`.
+
+    Args:
+        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
+        follows_path: False leaves the path out: at rest until a hand takes it.
+        clock: seconds, never decreasing; for the hand's timeouts.
+    """
+
+    def __init__(self, scenario, follows_path=True, clock=time.monotonic):
+        self._path = LeaderController(scenario)
+        self._follows_path = follows_path
+        settings = scenario.leader
+        motion = BoundedMotion(
+            *leader_workspace(scenario),
+            settings.max_velocity,
+            settings.max_acceleration,
+            scenario.cycle_time,
+        )
+        self._hand = Hand(motion, scenario.controller.timeout, clock)
+        self.reset()
+
+    def reset(self):
+        """Back to the start: at rest, on the path again, out of everybody's hands."""
+        self._path.reset()
+        self._hand.release()
+        self._by_hand = not self._follows_path
+        self._velocity = [0.0, 0.0, 0.0]
+        self._time = None
+
+    def drag(self, position):
+        """As :meth:`Hand.drag`."""
+        self._hand.drag(position)
+        self._by_hand = True
+
+    def steer(self, velocity):
+        """As :meth:`Hand.steer`."""
+        self._hand.steer(velocity)
+        self._by_hand = True
+
+    def release(self):
+        """Stop; on the path it stays there."""
+        self._hand.release()
+
+    @property
+    def source(self):
+        """What moves the leader: PATH, DRAGGED, STEERED or RESTING."""
+        return self._hand.source if self._by_hand else PATH
+
+    def update(self, time, position):
+        """Velocity command [m/s] (3,) for one state; see LeaderController.update."""
+        if not self._by_hand:
+            velocity = self._path.update(time, position)
+            self._velocity, self._time = velocity.tolist(), time
+            return velocity
+        if not np.isfinite([time, *position]).all():
+            self._velocity = [0.0, 0.0, 0.0]
+        elif self._time is None or time > self._time or time < self._time - 1.0:
+            self._velocity = self._hand.velocity(position, self._velocity)
+            self._time = time
+        return np.array(self._velocity)
+
+
+def _three_finite(values, name):
+    array = np.asarray(values, dtype=float)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise ValueError(f"the {name} is {list(values)}, allowed are three finite numbers")
+    return array.tolist()

@@ -1,0 +1,162 @@
+"""Overlaid snapshots of a run, seen along one axis: the paper's figures of the scenarios."""
+
+from functools import singledispatchmethod
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
+
+from deformable_manipulation.geometry.planes import PlaneFrame
+from deformable_manipulation.recording.frames import Frames
+from deformable_manipulation.recording.timeseries import AXES
+from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+
+# Okabe and Ito, in an order in which neighbours differ in lightness, too.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+GROUND, GROUND_EDGE = "#D9D9D9", "#808080"
+_PALENESS = 0.35  # of moving obstacles, beside the object's colour
+_MARGIN = 0.25  # m around the object's and the agents' ways
+
+
+def widest_plane(frames: Frames) -> Tuple[int, int]:
+    """The two axes, (across, up), in which the most can be seen.
+
+    Up is z unless nothing moves or reaches along it; across is the wider one of the others.
+    """
+    planes = [o.plane for o in frames.scenario.obstacles if isinstance(o, PolygonObstacle)]
+    if planes:
+        return AXES.index(planes[0][0]), AXES.index(planes[0][1])
+    ways = np.ptp(frames.agents, axis=0).max(axis=0)
+    across = 0 if ways[0] > ways[1] else 1
+    return across, 2
+
+
+class SnapshotPlot:
+    """Draws frames of a run into axes.
+
+    Args:
+        frames: :class:`~.recording.frames.Frames`.
+        axes: of matplotlib.
+        plane: the two coordinates that are seen, (across, up).
+    """
+
+    def __init__(self, frames: Frames, axes: Axes, plane: Optional[Tuple[int, int]] = None):
+        self._frames = frames
+        self._axes = axes
+        self._plane = list(plane or widest_plane(frames))
+
+    def draw(self, times: Sequence[float]) -> None:
+        """Obstacles, ways, and the object at some times [s], each in a colour of its own.
+
+        Obstacles that move are drawn at each of these times, in a pale tone of its colour.
+        """
+        for obstacle in self._frames.scenario.obstacles:
+            if obstacle.motion is None:
+                self._draw_obstacle(obstacle, GROUND)
+        for index in range(self._frames.agents.shape[1]):
+            way = self._frames.agents[:, index, self._plane]
+            self._axes.plot(*way.T, linestyle=":", linewidth=0.6, color="#606060", zorder=2)
+        for number, time in enumerate(times):
+            frame, colour = self._frames.at(time), COLOURS[number % len(COLOURS)]
+            for obstacle in self._frames.obstacles_at(frame):
+                if obstacle.motion is not None:
+                    self._draw_obstacle(obstacle, _pale(colour))
+            self._draw_frame(frame, colour)
+        across, up = (AXES[axis] for axis in self._plane)
+        self._axes.set_xlabel(f"{across} [m]")
+        self._axes.set_ylabel(f"{up} [m]")
+        self._axes.set_aspect("equal")
+        low, high = self._limits(times)
+        self._axes.set_xlim(low[0], high[0])
+        self._axes.set_ylim(low[1], high[1])
+
+    def height_per_width(self, times: Sequence[float]) -> float:
+        """The proportion of what is seen when drawn at these times."""
+        low, high = self._limits(times)
+        return (high[1] - low[1]) / (high[0] - low[0])
+
+    def _draw_frame(self, frame: int, colour: str) -> None:
+        points = self._frames.points[frame][:, self._plane]
+        if self._frames.faces is None:
+            self._axes.plot(*points.T, color=colour, linewidth=1.4, zorder=4)
+        else:
+            self._axes.add_collection(
+                PolyCollection(
+                    points[self._frames.faces], facecolors=colour, edgecolors="none", alpha=0.12
+                )
+            )
+            self._axes.add_collection(
+                LineCollection(
+                    points[boundary_edges(self._frames.faces)],
+                    colors=colour,
+                    linewidths=1.2,
+                    zorder=4,
+                )
+            )
+        self._draw_agents(frame, colour)
+
+    def _draw_agents(self, frame: int, colour: str) -> None:
+        """The leader as a square, the assistants as discs, their places as circles with arrows."""
+        scenario, agents = self._frames.scenario, self._frames.agents[frame]
+        leader = scenario.leader_index
+        starts = np.array([agent.start for agent in scenario.agents])
+        style = {"color": colour, "markersize": 4, "markeredgecolor": "black", "zorder": 6}
+        self._axes.plot(*agents[leader, self._plane], marker="s", **style)
+        for index in scenario.assistants:
+            here = agents[index, self._plane]
+            place = (agents[leader] + starts[index] - starts[leader])[self._plane]
+            self._axes.plot(*here, marker="o", **style)
+            if np.linalg.norm(here - place) > 0.02:
+                self._axes.plot(*place, marker="o", **{**style, "color": "white"})
+                self._axes.annotate(
+                    "", here, place, arrowprops={"arrowstyle": "->", "color": colour}, zorder=5
+                )
+
+    @singledispatchmethod
+    def _draw_obstacle(self, obstacle, colour) -> None:
+        raise TypeError(f"no drawing for obstacles of {type(obstacle).__name__}")
+
+    @_draw_obstacle.register
+    def _(self, obstacle: PolygonObstacle, colour) -> None:
+        frame = PlaneFrame(obstacle.plane, obstacle.rotation)
+        ring = frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
+        self._axes.fill(*ring[:, self._plane].T, facecolor=colour, edgecolor=GROUND_EDGE)
+
+    @_draw_obstacle.register
+    def _(self, obstacle: MeshObstacle, colour) -> None:
+        corners = placed_mesh(obstacle)[..., self._plane]
+        self._axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor="none"))
+
+    def _limits(self, times: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
+        """Lower and upper limits (2,) [m] of the view."""
+        shown = [self._frames.agents.reshape(-1, 3)[:, self._plane]]
+        shown += [self._frames.points[self._frames.at(time)][:, self._plane] for time in times]
+        shown = np.concatenate(shown)
+        low, high = shown.min(axis=0) - _MARGIN, shown.max(axis=0) + _MARGIN
+        lowest = self._frames.points[:, :, self._plane[1]].min()
+        return np.array([low[0], min(low[1], lowest - 2.0 * _MARGIN)]), high
+
+
+def _pale(colour: str) -> Tuple[float, ...]:
+    """A colour for the ground behind lines of this one."""
+    return tuple(1.0 - _PALENESS * (1.0 - part) for part in to_rgb(colour))
+
+
+def boundary_edges(faces: np.ndarray) -> np.ndarray:
+    """Edges (E, 2) of the triangles (T, 3) that belong to one of them only."""
+    edges = np.sort(np.concatenate((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    return unique[counts == 1]
+
+
+def placed_mesh(obstacle: MeshObstacle) -> np.ndarray:
+    """Corners (T, 3, 3) [m] of the triangles of a mesh, in the fixed frame."""
+    from deformable_manipulation.geometry.mesh_files import read_mesh
+    from deformable_manipulation.geometry.rotation import rotate
+
+    vertices, triangles = read_mesh(obstacle.mesh)
+    columns = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
+    placed = (vertices * np.array(obstacle.scale)) @ columns + np.array(obstacle.translation)
+    return placed[triangles]

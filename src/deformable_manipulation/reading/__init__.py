@@ -1,0 +1,1 @@
+"""Typed reading of a scenario file, with all its mistakes at once."""

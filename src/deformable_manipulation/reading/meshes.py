@@ -1,0 +1,145 @@
+"""Readers of triangle meshes: files, and vertices and triangles that stand in the scenario."""
+
+import dataclasses
+import os
+from typing import Any, Tuple
+
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.readers import (
+    LARGEST_COORDINATE,
+    Array,
+    Integer,
+    Node,
+    Number,
+    Section,
+    Unreadable,
+    position,
+    read_items,
+)
+from deformable_manipulation.system.package_files import resolve_file
+
+_LARGEST_INDEX = 2**31 - 1
+_FILE = "the name of a mesh file (OBJ, PLY, STL and others)"
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh:
+    """Vertices [m, or units of a file] and the triangles between them."""
+
+    vertices: Tuple[Vector, ...]
+    triangles: Tuple[Tuple[int, int, int], ...]
+
+
+class Scale:
+    """[m per unit] along the three axes: three numbers, or one for all of them."""
+
+    type, unit, range = "number or vector", "m", "1e-6 to 1e6; with a file only"
+    _number = Number("m", at_least=1.0 / LARGEST_COORDINATE, at_most=LARGEST_COORDINATE)
+    _numbers = Array(3, _number, "[x, y, z]")
+    allowed = "{}, or a list [x, y, z] of them".format(_number.allowed)
+
+    def __call__(self, node: Node) -> Vector:
+        if isinstance(node.value, (list, tuple)):
+            return self._numbers(node)
+        return (self._number(node),) * 3
+
+
+class MeshFile:
+    """The name of a mesh file; returns its absolute path.
+
+    The file is read, so that what is wrong with it is found together with all other mistakes,
+    unless that has been done before (:attr:`Node.files_are_read`).
+    """
+
+    type, unit, range = "file", "", ""
+    allowed = _FILE
+
+    def __call__(self, node: Node) -> str:
+        if not isinstance(node.value, str) or not node.value:
+            node.fail("must be {}".format(self.allowed))
+        if node.files_are_read:
+            return node.value
+        return _read_file(node)[0]
+
+
+class InlineMesh:
+    """A mesh in a file or in the scenario itself; returns vertices and triangles."""
+
+    type, unit, range = "file or section", "m", ""
+    allowed = _FILE + ", or a section with keys vertices and triangles"
+
+    def __call__(self, node: Node) -> Mesh:
+        if isinstance(node.value, str) and node.value:
+            _, vertices, triangles = _read_file(node)
+            return Mesh(_tuples(vertices), _tuples(triangles))
+        if not isinstance(node.value, dict):
+            node.fail("must be {}".format(self.allowed))
+        mesh = _INLINE(node)
+        _check_triangles(node, mesh)
+        return mesh
+
+
+def scaled(mesh: Mesh, scale: Vector) -> Mesh:
+    """The mesh of a file in m."""
+    vertices = tuple(tuple(s * c for s, c in zip(scale, vertex)) for vertex in mesh.vertices)
+    return Mesh(vertices, mesh.triangles)
+
+
+def _check_triangles(node: Node, mesh: Mesh) -> None:
+    """Each triangle names three different vertices that are there."""
+    last = len(mesh.vertices) - 1
+    wrong = [
+        index
+        for index, triangle in enumerate(mesh.triangles)
+        if max(triangle) > last or len(set(triangle)) < 3
+    ]
+    for index in wrong:
+        node.report.add(
+            node.path + ("triangles", str(index)),
+            "must name three different vertices from 0 to {}".format(last),
+            show(list(mesh.triangles[index])),
+        )
+    if wrong:
+        raise Unreadable
+
+
+def _read_file(node: Node):
+    """Absolute path, vertices (V, 3) and triangles (T, 3) of the mesh file that a node names."""
+    # Imported late: it loads libraries that scenarios without mesh files do not need.
+    from deformable_manipulation.geometry.mesh_files import MeshError, read_mesh
+
+    try:
+        path = os.path.abspath(str(resolve_file(node.value, node.directory)))
+        vertices, triangles = read_mesh(path)
+    except (MeshError, FileNotFoundError) as error:
+        node.fail(str(error))
+    return path, vertices, triangles
+
+
+def _tuples(array) -> Tuple[Tuple[Any, ...], ...]:
+    return tuple(tuple(row) for row in array.tolist())
+
+
+class _List:
+    """A list of one item or more, all read by one reader."""
+
+    def __init__(self, item, things: str):
+        self._item = item
+        self.allowed = "a list of {}, each {}".format(things, item.allowed)
+
+    def __call__(self, node: Node) -> Tuple[Any, ...]:
+        if not isinstance(node.value, (list, tuple)) or not node.value:
+            node.fail("must be {}".format(self.allowed))
+        return read_items(node, self._item)
+
+
+_INLINE = Section(
+    Mesh,
+    {
+        "vertices": _List(position(), "vertices"),
+        "triangles": _List(
+            Array(3, Integer(0, _LARGEST_INDEX), "[i, j, k]"), "triangles of vertices from 0"
+        ),
+    },
+)

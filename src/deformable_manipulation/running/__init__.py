@@ -1,0 +1,1 @@
+"""The whole chain in one process, with exact or imperfect knowledge."""

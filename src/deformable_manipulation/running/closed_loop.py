@@ -1,0 +1,129 @@
+"""The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
+
+import time
+from typing import Dict
+
+from deformable_manipulation.control.decision import Decision
+from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.team import TeamController, teams
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
+from deformable_manipulation.motion.leader import LeaderController
+from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
+from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
+from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.simulation.factory import make_simulation
+from deformable_manipulation.simulation.observer import Observer
+from deformable_manipulation.simulation.stretch import StretchGauge
+
+_PROGRESS_REPORTS = 100
+
+
+class ClosedLoop:
+    """Runs a scenario in lock-step: the same order and delay as the nodes (docs/interfaces.md).
+
+    In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
+    commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
+    those whose poses come from a topic or from tf stand where the scenario puts them.
+
+    Raises _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
+    """
+
+    def __init__(self, scenario: Scenario, safety: bool = True):
+        self._scenario = scenario
+        perfect = scenario.knowledge.perfect
+        # Without barriers nobody asks for gradients; with imperfect knowledge those of a model.
+        copies = safety and perfect
+        self._simulation = make_simulation(true_scenario(scenario), copies)
+        self._distance = make_minimum_distance(scenario)
+        self._leader = LeaderController(scenario)
+        self._leader_index = scenario.leader_index
+        self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
+        self._observer = Observer(scenario, self._simulation, self._distance, perfect)
+        self._knowledge = None
+        if not perfect:
+            self._knowledge = ImperfectKnowledge(
+                scenario, self._controllers, make_minimum_distance(scenario)
+            )
+        self._stretch = StretchGauge(scenario.object)
+
+    def distance(self) -> float:
+        """Present signed distance [m] of the object from the obstacles; infinite without any."""
+        return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])
+
+    def run(self, recorder=None, progress=None) -> None:
+        """Run the scenario to its end.
+
+        ``recorder`` gets a :class:`CycleRecord` per cycle; ``progress`` is called about a hundred
+        times with the fraction done.
+
+        Raises _pbd.NonFiniteState: the simulation broke down; what happened is in the text.
+        """
+        cycles = self._scenario.cycles
+        report_every = max(1, cycles // _PROGRESS_REPORTS)
+        for cycle in range(cycles):
+            record = self.step()
+            if recorder is not None:
+                recorder.record(record)
+            if progress is not None and (cycle + 1) % report_every == 0:
+                progress((cycle + 1) / cycles)
+
+    def step(self) -> CycleRecord:
+        """Answer the present state and advance to the next one."""
+        simulation = self._simulation
+        started = time.perf_counter()
+        observation = self._observer.observe()
+        measured = time.perf_counter()
+        decisions = self._decide(observation)
+        leader = self._leader_index
+        leader_velocity = self._leader.update(observation.time, observation.positions[leader])
+        decided = time.perf_counter()
+        velocities = simulation.velocities()
+        points = observation.points[0].copy()
+
+        advancing = time.perf_counter()
+        simulation.advance()
+        simulation.set_command(leader, leader_velocity)
+        for index in self._scenario.assistants:
+            name = self._scenario.agents[index].name
+            simulation.set_command(index, decisions[name].command)
+        advanced = time.perf_counter()
+
+        return CycleRecord(
+            cycle=observation.cycle,
+            time=observation.time,
+            distance=float(observation.distances.minimum[0]),
+            stretch=self._stretch.measure(points),
+            positions=observation.positions,
+            velocities=velocities,
+            points=points,
+            obstacles=self._observer.obstacle_poses(),
+            decisions=decisions,
+            timings=CycleTimings(
+                simulation=advanced - advancing,
+                distance=measured - started,
+                controller=decided - measured,
+            ),
+        )
+
+    def _decide(self, observation: Observation) -> Dict[str, Decision]:
+        """The decisions of all assistants by their names."""
+        if self._knowledge is not None:
+            return self._knowledge.decide(observation)
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(observation))
+        return decisions
+
+
+def make_minimum_distance(scenario: Scenario):
+    """The distance computation for a scenario's object and obstacles, by the chosen backend.
+
+    Raises ValueError: an obstacle's file cannot be read, or its shape is none.
+    """
+    body, collision = scenario.object, scenario.controller.collision
+    backend = MinimumDistance
+    if collision.backend == "reference":
+        from deformable_manipulation.distance.reference import ReferenceMinimumDistance
+
+        backend = ReferenceMinimumDistance
+    return backend(scenario.obstacles, body.margin, collision.band, "elements", body.triangles)

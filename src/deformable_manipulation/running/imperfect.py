@@ -1,0 +1,184 @@
+"""Controllers that know the object and where it is held only imperfectly."""
+
+import dataclasses
+import math
+from collections import deque
+from functools import singledispatch
+from typing import Dict, Sequence
+
+import numpy as np
+
+from deformable_manipulation._control import PositionFilter
+from deformable_manipulation.control.decision import Decision
+from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.scenario.spec import FabricSpec, KnowledgeSpec, RodSpec, Scenario
+from deformable_manipulation.simulation.factory import make_simulation
+from deformable_manipulation.simulation.observer import Observer
+
+_LARGEST_SPEED = 2.0  # m/s, at which a model follows poses: PoseInbox::kMaxSpeed
+
+
+class ImperfectController:
+    """A controller that sees a model of the object instead of the object itself.
+
+    What it decides is told with the true places, distances and margins.
+
+    Args:
+        scenario: the scenario as it is assumed to be.
+        controller: TeamController.
+        random: numpy's Generator, of the cycles that are dropped.
+    """
+
+    def __init__(self, scenario: Scenario, controller, random: np.random.Generator):
+        self._controller = controller
+        self._random = random
+        self._dropped = scenario.knowledge.dropped_cycles
+        self._timeout = scenario.controller.timeout
+        self._answered = 0.0  # s, time of the newest state that came
+        self._decisions = controller.wait("no state has come yet")
+        self._truths = {
+            scenario.agents[index].name: _Truth(scenario, index, controller)
+            for index in scenario.assistants
+            if scenario.agents[index].name in controller.names
+        }
+
+    def update(self, seen: Observation, truth: Observation) -> Dict[str, Decision]:
+        """Decide the velocities; where the state does not come, the last commands go on."""
+        if self._random.random() >= self._dropped:
+            self._answered = seen.time
+            self._decisions = self._controller.update(seen)
+        elif seen.time - self._answered > self._timeout:
+            self._decisions = self._controller.wait("no state has come for too long")
+        return {
+            name: self._truths[name].told(decision, truth)
+            for name, decision in self._decisions.items()
+        }
+
+
+class _Truth:
+    """Puts the true state of an assistant into its decisions."""
+
+    def __init__(self, scenario: Scenario, index: int, controller):
+        starts = np.array([agent.start for agent in scenario.agents])
+        self._index, self._leader = index, scenario.leader_index
+        self._name = scenario.agents[index].name
+        self._reference = starts[index] - starts[self._leader]
+        self._controller = controller
+
+    def told(self, decision: Decision, truth: Observation) -> Decision:
+        position = truth.positions[self._index]
+        target = truth.positions[self._leader] + self._reference
+        distance = float(truth.distances.minimum[0])
+        return dataclasses.replace(
+            decision,
+            position=position,
+            target=target,
+            error=target - position,
+            distance=distance,
+            h=self._controller.margins(self._name, truth.positions, distance),
+        )
+
+
+class ImperfectKnowledge:
+    """What the controllers make of the agents' measured poses: a model of the object.
+
+    The model is a simulation with the scenario's material. Its held points follow the measured
+    poses, filtered and predicted over their delay, as those of a simulator whose agents are
+    ``driven_by: pose`` (src/ros/agent_link.h).
+
+    Args:
+        scenario: the scenario as it is assumed to be; its ``knowledge`` says what is wrong.
+        controllers: TeamControllers of all assistants.
+        distance: MinimumDistance or one like it, for the model.
+    """
+
+    def __init__(self, scenario: Scenario, controllers: Sequence, distance):
+        knowledge = scenario.knowledge
+        self._cycle_time = scenario.cycle_time
+        self._model = make_simulation(scenario)
+        self._observer = Observer(scenario, self._model, distance)
+        self._poses = MeasuredPoses(
+            self._model.positions(),
+            knowledge,
+            scenario.cycle_time,
+            np.random.default_rng([knowledge.seed, 0]),
+        )
+        self._delay = knowledge.pose_delay
+        self._filter = PositionFilter(scenario.controller.pose_smoothing)
+        drops = np.random.default_rng([knowledge.seed, 1])
+        self._controllers = [
+            ImperfectController(scenario, controller, drops) for controller in controllers
+        ]
+
+    def decide(self, truth: Observation) -> Dict[str, Decision]:
+        """The decisions of all assistants on a state of which they get the measured poses.
+
+        :param truth: one state after the other, with the object's own distances.
+        """
+        self._filter.update(truth.time - self._delay, self._poses.measure(truth.positions))
+        if truth.cycle > 0:
+            self._follow(self._filter.position(truth.time))
+        seen = dataclasses.replace(self._observer.observe(), velocities=self._filter.velocity())
+        decisions = {}
+        for controller in self._controllers:
+            decisions.update(controller.update(seen, truth))
+        return decisions
+
+    def _follow(self, positions: np.ndarray) -> None:
+        """Advance the model to the next state, with its held points going to ``positions``."""
+        velocities = (positions - self._model.positions()) / self._cycle_time
+        speeds = np.linalg.norm(velocities, axis=1, keepdims=True)
+        velocities /= np.maximum(1.0, speeds / _LARGEST_SPEED)
+        for agent, velocity in enumerate(velocities):
+            self._model.set_command(agent, velocity)
+        self._model.advance()
+
+
+class MeasuredPoses:
+    """The held points as they are measured: late and with noise."""
+
+    def __init__(self, start: np.ndarray, knowledge: KnowledgeSpec, cycle_time: float, random):
+        cycles = knowledge.pose_delay / cycle_time
+        self._noise = knowledge.pose_noise
+        self._random = random
+        # Of the states at both ends of the cycle in which what comes now was measured.
+        self._weight = math.ceil(cycles) - cycles
+        self._states = deque([start] * (math.ceil(cycles) + 1), math.ceil(cycles) + 1)
+
+    def measure(self, positions: np.ndarray) -> np.ndarray:
+        """What arrives (A, 3) [m] with a state whose true held points are ``positions``."""
+        self._states.append(positions)
+        measured = self._states[0]
+        if self._weight:  # held points move at constant velocity within a cycle
+            measured = measured + self._weight * (self._states[1] - measured)
+        return measured + self._noise * self._random.standard_normal(measured.shape)
+
+
+def true_scenario(scenario: Scenario) -> Scenario:
+    """The scenario with the object's true material in place of the assumed one."""
+    return dataclasses.replace(scenario, object=_true_object(scenario.object, scenario.knowledge))
+
+
+@singledispatch
+def _true_object(spec, knowledge: KnowledgeSpec):
+    raise TypeError(f"no other material for {type(spec).__name__}")
+
+
+@_true_object.register
+def _true_rod(spec: RodSpec, knowledge: KnowledgeSpec) -> RodSpec:
+    return dataclasses.replace(
+        spec,
+        young_modulus=knowledge.stiffness_factor * spec.young_modulus,
+        torsion_modulus=knowledge.stiffness_factor * spec.torsion_modulus,
+        density=knowledge.density_factor * spec.density,
+    )
+
+
+@_true_object.register
+def _true_fabric(spec: FabricSpec, knowledge: KnowledgeSpec) -> FabricSpec:
+    return dataclasses.replace(
+        spec,
+        stretching_compliance=spec.stretching_compliance / knowledge.stiffness_factor,
+        bending_compliance=spec.bending_compliance / knowledge.stiffness_factor,
+        density=knowledge.density_factor * spec.density,
+    )

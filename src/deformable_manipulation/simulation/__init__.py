@@ -1,0 +1,1 @@
+"""The simulated object of a scenario, and what is to be seen of it."""
