@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace deformable_manipulation {
 namespace control {
 
-PairParameters PairParameters::read(const ParameterSection& section) {
-  return {section.matrix("limits"), section.number("margin"), PiecewiseLinearClassK::read(section, "alpha")};
+PairParameters PairParameters::read(const ParameterSection& section, int agents) {
+  PairParameters parameters{section.matrix("limits"), section.number("margin"),
+                            PiecewiseLinearClassK::read(section, "alpha")};
+  if (parameters.limits.rows() != agents || parameters.limits.cols() != agents) {
+    section.check().require(false, section.pathOf("limits"), parameters.limits.rows(), "a row and a column per agent");
+    parameters.limits.setZero(agents, agents);
+  }
+  return parameters;
 }
 
 PairBarrier::PairBarrier(Kind kind, const PairParameters& parameters, const Team& team)
-    : sign_(kind == Kind::MAXIMUM ? -1.0 : 1.0), parameters_(parameters), team_(team) {
-  if (parameters_.limits.rows() != team_.agents || parameters_.limits.cols() != team_.agents) {
-    throw std::invalid_argument("limits: a row and a column for each agent are needed");
-  }
-}
+    : sign_(kind == Kind::MAXIMUM ? -1.0 : 1.0), parameters_(parameters), team_(team) {}
 
 double PairBarrier::value(const std::vector<Vector3>& positions, int agent, int other) const {
   return sign_ * ((positions[other] - positions[agent]).norm() - parameters_.limits(agent, other));

@@ -43,6 +43,14 @@ double share(int agent, int point) {
 class Chain {
  public:
   explicit Chain(int features) : features_(features) {
+    distances_.minimum.resize(COPIES);
+    distances_.offsets.resize(COPIES + 1);
+    distances_.features.resize(features);
+    for (int m = 0; m < features; ++m) {
+      distances_.features[m].normal = Vector3::UnitZ();
+      distances_.features[m].vertices = {m, 0, 0};
+      distances_.features[m].weights = {1.0, 0.0, 0.0};
+    }
     for (int agent = 0; agent < AGENTS; ++agent) {
       for (int point = 0; point < POINTS; ++point) {
         for (int i = 0; i < 3; ++i) {
@@ -60,9 +68,7 @@ class Chain {
       fillCopy(copy);
     }
     for (int m = 0; m < features_; ++m) {
-      distance_[m] = coordinates_[3 * m + 2] - 0.2;
-      normal_[3 * m + 2] = weights_[3 * m] = 1.0;
-      vertices_[3 * m] = m;
+      distances_.features[m].distance = coordinates_[3 * m + 2] - 0.2;
     }
     view_.time = time;
     view_.agents = AGENTS;
@@ -74,8 +80,7 @@ class Chain {
     view_.displacements = displacements_.data();
     view_.ready = ready_;
     view_.sensitivities = sensitivities_.data();
-    view_.distances = {minimum_.data(),  offsets_.data(), distance_.data(), normal_.data(),
-                       vertices_.data(), weights_.data(), still_.data(),    features_};
+    view_.distances = &distances_;
     return view_;
   }
 
@@ -95,9 +100,9 @@ class Chain {
         }
       }
     }
-    minimum_[copy] = coordinates_[3 * copy * POINTS + 2] - 0.2;
-    offsets_[copy] = copy == 0 ? 0 : features_;
-    offsets_[copy + 1] = features_;
+    distances_.minimum[copy] = coordinates_[3 * copy * POINTS + 2] - 0.2;
+    distances_.offsets[copy] = copy == 0 ? 0 : features_;
+    distances_.offsets[copy + 1] = features_;
   }
 
   int features_;
@@ -105,33 +110,111 @@ class Chain {
   std::vector<double> coordinates_ = std::vector<double>(3 * COPIES * POINTS);
   std::vector<double> sensitivities_ = std::vector<double>(9 * AGENTS * POINTS);
   std::vector<double> displacements_ = std::vector<double>(3 * COPIES);
-  std::vector<double> minimum_ = std::vector<double>(COPIES);
   std::vector<int> displaced_ = std::vector<int>(COPIES);
-  std::vector<int> offsets_ = std::vector<int>(COPIES + 1);
-  std::vector<double> distance_ = std::vector<double>(POINTS);
-  std::vector<double> normal_ = std::vector<double>(3 * POINTS);
-  std::vector<double> weights_ = std::vector<double>(3 * POINTS);
-  std::vector<double> still_ = std::vector<double>(3 * POINTS);
-  std::vector<int> vertices_ = std::vector<int>(3 * POINTS);
+  distance::Distances distances_;
   bool ready_[COPIES] = {true, true, true, true, true, true, true};
   ObservationView view_;
 };
 
-//! Of the first assistant by its copies, or of both by the exact response.
-ControllerParameters parameters(int commanded = 1) {
-  ControllerParameters p;
-  p.assistants = {1, 2};
-  p.commanded = {1};
-  p.references = {{0.0, 0.75, 0.0}};
+using Mapping = ParameterValue::Mapping;
+using List = ParameterValue::List;
+
+List numbers(std::initializer_list<double> values) { return List(values.begin(), values.end()); }
+
+//! A section of a barrier on pairs.
+Mapping pairs(double limit) {
+  return {{"limits", List(AGENTS, List(AGENTS, limit))}, {"margin", 0.0}, {"alpha", numbers({1.0, 2.0})}};
+}
+
+Mapping collision() {
+  return {{"offset", 0.05},
+          {"margin", 0.0},
+          {"speed_margin", 0.0},
+          {"band", 0.1},
+          {"alpha", numbers({1.0, 5.0})},
+          {"anticipation", numbers({0.4, 5.0})},
+          {"obstacle_velocity", true},
+          {"gradient", "features"}};
+}
+
+Mapping controller(bool exact) {
+  return {{"formulation", "full"},
+          {"feedforward", true},
+          {"priority", List{"collision", "overstretch", "proximity"}},
+          {"gain", 1.0},
+          {"weights", numbers({1.0, 1.0, 1.0})},
+          {"max_velocity", 0.15},
+          {"max_acceleration", 1.0},
+          {"smoothing", 0.0},
+          {"timeout", 0.2},
+          {"jacobian", exact ? "equilibrium" : "perturbed_copies"},
+          {"collision", collision()},
+          {"overstretch", pairs(2.0)},
+          {"proximity", pairs(0.2)}};
+}
+
+Mapping team(int commanded) {
+  Mapping team{{"agents", AGENTS},
+               {"leader", 0},
+               {"assistants", List{1, 2}},
+               {"commanded", List{1}},
+               {"references", List{numbers({0.0, 0.75, 0.0})}},
+               {"cycle_time", 0.01},
+               {"safety", true},
+               {"barriers", List{"collision", "overstretch", "proximity"}}};
   if (commanded == 2) {
-    p.exact_gradients = true;
-    p.commanded.push_back(2);
-    p.references.emplace_back(0.0, 1.5, 0.0);
+    team["commanded"] = List{1, 2};
+    team["references"] = List{numbers({0.0, 0.75, 0.0}), numbers({0.0, 1.5, 0.0})};
   }
-  p.collision.offset = 0.05;
-  p.overstretch.limits = Eigen::MatrixXd::Constant(AGENTS, AGENTS, 2.0);
-  p.proximity.limits = Eigen::MatrixXd::Constant(AGENTS, AGENTS, 0.2);
-  return p;
+  return team;
+}
+
+ControllerParameters read(const ParameterValue& controller, const ParameterValue& team) {
+  pbd::ParameterCheck check;
+  const ControllerParameters parameters =
+      ControllerParameters::read({controller, "controller", check}, {team, "team", check});
+  check.throwIfAny();
+  return parameters;
+}
+
+//! Of the first assistant by its copies, or of both by the exact response.
+ControllerParameters parameters(int commanded = 1) { return read(controller(commanded == 2), team(commanded)); }
+
+TEST(ControllerParameters, everyMistakeIsToldAtOnce) {
+  Mapping wrong = controller(false);
+  wrong.erase("gain");
+  wrong["weights"] = numbers({1.0, 1.0});
+  wrong["priority"] = List{"collision", "gravity", "proximity"};
+  try {
+    read(wrong, team(1));
+    FAIL();
+  } catch (const pbd::ParameterError& error) {
+    ASSERT_EQ(error.problems().size(), 3u);
+    EXPECT_EQ(error.problems()[0].key, "controller.gain");
+    EXPECT_EQ(error.problems()[1].key, "controller.weights");
+    EXPECT_EQ(error.problems()[2].key, "controller.priority");
+  }
+}
+
+TEST(TeamController, refusesABarrierThatThereIsNot) {
+  Mapping others = team(1);
+  others["barriers"] = List{"collision", "overstretch", "gravity"};
+  Mapping keys = controller(false);
+  keys["priority"] = List{"collision", "overstretch", "gravity"};
+  EXPECT_THROW(TeamController(read(keys, others)), std::invalid_argument);
+}
+
+TEST(TeamController, staysAsItIsWhenNewParametersCannotBeUsed) {
+  TeamController one(parameters());
+  TeamController other(parameters());
+  Mapping wrong = controller(false);
+  wrong["weights"] = numbers({1.0, 2.0, 3.0});
+  wrong["collision"] = Mapping{{"offset", 0.2}};
+  EXPECT_THROW(one.setParameters(read(wrong, team(1))), std::invalid_argument);
+  Chain chain(POINTS);
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    EXPECT_EQ(one.update(chain.at(cycle))[0].command, other.update(chain.at(cycle))[0].command);
+  }
 }
 
 TEST(Allocation, isCounted) {

@@ -58,15 +58,11 @@ def make_decision(cycle, phase=0.0, status=None):
         target=wave[6:9] + wave[9:12],
         error=wave[9:12],
         distance=distance,
-        h_collision=distance - OFFSET,
-        h_overstretch=wave[12],
-        h_proximity=wave[13],
+        h={"collision": distance - OFFSET, "overstretch": wave[12], "proximity": wave[13]},
         jacobian=wave[14:17],
         leader_drift=wave[17],
         rows=3 + cycle % 2,
-        slack_collision=wave[18],
-        slack_overstretch=wave[19],
-        slack_proximity=wave[20],
+        slack={"collision": wave[18], "overstretch": wave[19], "proximity": wave[20]},
         solve_time=1e-5 * (1 + cycle % 3),
     )
 

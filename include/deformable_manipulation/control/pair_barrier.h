@@ -15,8 +15,8 @@ struct PairParameters {
   double margin;           //!< [m] by which the rows stay within the limits
   PiecewiseLinearClassK alpha;
 
-  //! Reads the section of a barrier on pairs.
-  static PairParameters read(const ParameterSection& section);
+  //! Reads the section of a barrier on pairs of so many agents.
+  static PairParameters read(const ParameterSection& section, int agents);
 };
 
 //! A barrier on the distance r between the held point i of each commanded assistant and each other one j.

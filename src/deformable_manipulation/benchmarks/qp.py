@@ -11,6 +11,7 @@ from deformable_manipulation.benchmarks.harness import measure_each
 from deformable_manipulation.benchmarks.qp_problems import (
     FEASIBLE,
     INFEASIBLE,
+    KINDS,
     Program,
     make_problems,
 )
@@ -41,7 +42,8 @@ NOTES = (
     "safety filter: from rows and bounds at hand to a checked velocity, always with the relaxed "
     "program; with quadprog: the same program by that solver",
     "native, quadprog, qpsolvers (with quadprog), daqp: from matrices at hand to a solution, "
-    "unchecked; hard: three variables, rows as they are; soft: six variables, one slack per tier",
+    "unchecked; hard: three variables, rows as they are; soft: six variables, one slack per kind "
+    "of constraint",
     "infeasible: at least two rows contradict each other; the solvers then have no solution of the "
     "hard program",
 )
@@ -75,8 +77,8 @@ def _row(name: str, calls: List[Call], request: Request) -> dict:
 
 
 def _candidates(problems) -> List[Tuple[str, List[Call]]]:
-    native = SafetyFilter(np.ones(3))
-    reference = SafetyFilter(np.ones(3), solver=find_solver("quadprog"))
+    native = SafetyFilter(np.ones(3), KINDS)
+    reference = SafetyFilter(np.ones(3), KINDS, solver=find_solver("quadprog"))
     candidates = [
         ("safety filter", [_filtering(native, problem) for problem in problems]),
         ("safety filter with quadprog", [_filtering(reference, problem) for problem in problems]),

@@ -5,14 +5,14 @@ from typing import List, Sequence
 
 import numpy as np
 
-from deformable_manipulation._control import ConstraintRows, Tier
+from deformable_manipulation._control import ConstraintRows
 
 FEASIBLE = "feasible"
 INFEASIBLE = "infeasible"
 SEED = 20  # any
 MAX_VELOCITY = 0.15  # m/s
-TIERS = (Tier.COLLISION, Tier.OVERSTRETCH, Tier.PROXIMITY)
-SLACK_COSTS = (1e6, 1e4, 1e2)  # times the cost of u_max, per tier
+KINDS = (0, 1, 2)  # of limits: collision, overstretch, proximity
+SLACK_COSTS = (1e6, 1e4, 1e2)  # times the cost of u_max, per kind
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Problem:
     """What a safety filter with equal weights is given."""
 
     nominal: np.ndarray
-    tiers: Sequence[int]  # of each row, its place in TIERS
+    kinds: Sequence[int]  # of each row, its place in KINDS
     coefficients: np.ndarray
     limits: np.ndarray
     lower: np.ndarray
@@ -39,8 +39,8 @@ class Problem:
     def rows(self) -> ConstraintRows:
         """The rows as the safety filter takes them."""
         rows = ConstraintRows(len(self.nominal))
-        for tier, coefficients, limit in zip(self.tiers, self.coefficients, self.limits):
-            rows.add(TIERS[tier], coefficients, limit)
+        for kind, coefficients, limit in zip(self.kinds, self.coefficients, self.limits):
+            rows.add(kind, coefficients, limit)
         return rows
 
     def hard(self) -> Program:
@@ -54,16 +54,16 @@ class Problem:
         )
 
     def soft(self) -> Program:
-        """Rows that may be missed by a slack per tier, at a linear cost."""
+        """Rows that may be missed by a slack per kind, at a linear cost."""
         hard = self.hard()
-        slack = np.zeros((len(hard.limits), len(TIERS)))
-        slack[np.arange(len(self.tiers)), self.tiers] = 1.0
-        positive = np.hstack([np.zeros((len(TIERS), 3)), np.eye(len(TIERS))])
+        slack = np.zeros((len(hard.limits), len(KINDS)))
+        slack[np.arange(len(self.kinds)), self.kinds] = 1.0
+        positive = np.hstack([np.zeros((len(KINDS), 3)), np.eye(len(KINDS))])
         return Program(
-            np.eye(3 + len(TIERS)),
+            np.eye(3 + len(KINDS)),
             np.concatenate([hard.linear, MAX_VELOCITY * np.array(SLACK_COSTS)]),
             np.vstack([np.hstack([hard.constraints, slack]), positive]),
-            np.concatenate([hard.limits, np.zeros(len(TIERS))]),
+            np.concatenate([hard.limits, np.zeros(len(KINDS))]),
         )
 
 
@@ -87,9 +87,9 @@ def _problem(kind: str, count: int, generator: np.random.Generator) -> Problem:
     if kind == INFEASIBLE:
         coefficients[1] = -coefficients[0]
         bounds[1] = -bounds[0] + 0.02
-    tiers = [0] * (count - 2) + [1, 2]
+    kinds = [0] * (count - 2) + [1, 2]
     limit = np.full(3, MAX_VELOCITY)
-    return Problem(nominal, tiers, coefficients, bounds, -limit, limit)
+    return Problem(nominal, kinds, coefficients, bounds, -limit, limit)
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

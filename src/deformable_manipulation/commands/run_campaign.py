@@ -256,9 +256,10 @@ def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> N
         json.dump(content, file, indent=2)
         file.write("\n")
     with atomic_file(folder / "runs.csv") as file:
-        table = csv.DictWriter(file, [field.name for field in dataclasses.fields(RunOutcome)])
+        rows = [outcome.to_mapping() for outcome in outcomes]
+        table = csv.DictWriter(file, dict.fromkeys(name for row in rows for name in row))
         table.writeheader()
-        table.writerows(outcome.to_mapping() for outcome in outcomes)
+        table.writerows(rows)
     bad = worst(outcomes).index
     try:
         varied = vary(campaign.scenario, campaign.ranges, campaign.seed, bad)

@@ -20,7 +20,6 @@ from deformable_manipulation.reading.parameter import declared
 LARGEST_COORDINATE = 1e6  # m; beyond it distances lose the precision that safety needs
 _UNIT_NORM = 1e-12  # quaternions this near to unit norm stay as they are, so that reading is stable
 _NEAR_UNIT_NORM = 1e-3
-_REQUIRED = object()
 
 
 class Unreadable(Exception):
@@ -260,13 +259,13 @@ class Items:
     type, unit, range = "list", "", ""
 
     def __init__(self, item):
-        self._item = item
+        self.item = item
         self.allowed = "a list, each item {}".format(item.allowed)
 
     def __call__(self, node: Node) -> Tuple[Any, ...]:
         if not isinstance(node.value, (list, tuple)):
             node.fail("must be {}".format(self.allowed))
-        return read_items(node, self._item)
+        return read_items(node, self.item)
 
 
 def vector(unit: str, **bounds) -> Array:
@@ -317,6 +316,7 @@ class Section:
     """
 
     type, unit, range = "section", "", ""
+    REQUIRED = object()  # in place of a default
 
     def __init__(
         self,
@@ -341,6 +341,10 @@ class Section:
             raise Unreadable
         return self.spec(**values)
 
+    def spec_default(self, attribute: str) -> Any:
+        """The default of an attribute, or REQUIRED."""
+        return self.defaults.get(attribute, self.REQUIRED)
+
     def read_parts(self, node: Node) -> Dict[str, Any]:
         """The attributes that can be read, those with mistakes left out.
 
@@ -361,8 +365,8 @@ class Section:
     def _read_field(self, node: Node, key: str, attribute: str, reader):
         if key in node.value:
             return reader(node.child(key, node.value[key]))
-        default = self.defaults.get(attribute, _REQUIRED)
-        if default is _REQUIRED:
+        default = self.spec_default(attribute)
+        if default is self.REQUIRED:
             node.report.add(node.path + (key,), "is missing; give {}".format(reader.allowed))
             raise Unreadable
         return default

@@ -7,6 +7,7 @@ from deformable_manipulation._control import SafetyFilter
 from deformable_manipulation.benchmarks.qp_problems import (
     FEASIBLE,
     INFEASIBLE,
+    KINDS,
     MAX_VELOCITY,
     make_problems,
 )
@@ -24,7 +25,7 @@ def solve(program):
 
 def filtered(problem):
     """Velocity and status."""
-    result = SafetyFilter(np.ones(3)).filter(
+    result = SafetyFilter(np.ones(3), KINDS).filter(
         problem.nominal, problem.rows(), problem.lower, problem.upper
     )
     return result[0], Status(result[1])

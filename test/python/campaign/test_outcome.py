@@ -54,8 +54,8 @@ class Run:
         for name in self.series.assistants:
             self.set(f"{name}.error_norm", 0.0)
             self.set(f"{name}.status", Status.NOMINAL)
-            self.set(f"{name}.h_overstretch", 0.2)
-            self.set(f"{name}.h_proximity", 0.2)
+            for barrier in self.series.barriers:
+                self.set(f"{name}.h_{barrier}", 0.2)
 
     def set(self, column, value, where=slice(None)):
         self.series.column(column)[where] = value  # a view of the table
@@ -72,19 +72,19 @@ def run(tmp_path):
 def test_a_run_in_which_nothing_happens(run):
     outcome = run.assess()
     assert outcome.completed and not outcome.deadlock
-    assert outcome.distance_violation == outcome.overstretch_violation == 0.0
+    assert set(outcome.violations.values()) == {0.0}
     assert outcome.relaxed == outcome.failed == 0 and outcome.constrained == 0.0
 
 
 def test_violations_are_how_far_the_limits_are_missed(run):
     name = run.series.assistants[0]
-    run.set("distance", run.scenario.controller.collision.offset - 0.004, 5)
+    run.set(f"{name}.h_collision", -0.004, 5)
     run.set(f"{name}.h_overstretch", -0.002, 6)
     run.set(f"{name}.h_proximity", -0.003, 7)
     outcome = run.assess()
-    assert outcome.distance_violation == pytest.approx(0.004)
-    assert outcome.overstretch_violation == pytest.approx(0.002)
-    assert outcome.proximity_violation == pytest.approx(0.003)
+    assert outcome.violations == pytest.approx(
+        {"collision": 0.004, "overstretch": 0.002, "proximity": 0.003}
+    )
 
 
 def test_programs_are_counted(run):

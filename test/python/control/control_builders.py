@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from deformable_manipulation import _control
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.scenario.spec import (
@@ -115,6 +116,87 @@ class HalfSpace:
             weights=np.tile((1.0, 0.0, 0.0), (count, 1)),
             obstacle_velocity=np.tile(self.velocity, (count, 1)),
         )
+
+
+def changed(distances, **fields):
+    """Distances with some arrays replaced."""
+    names = ("minimum", "offsets", "distance", "obstacle", "object_point", "obstacle_point")
+    names += ("normal", "vertices", "weights", "obstacle_velocity", "identity", "names")
+    return Distances(**{**{name: getattr(distances, name) for name in names}, **fields})
+
+
+def team(commanded, assistants, agents, formulation, max_velocity=0.15):
+    """Who is commanded; agent 0 leads."""
+    return _control.Team(
+        agents=agents,
+        leader=0,
+        assistants=list(assistants),
+        commanded=list(commanded),
+        max_velocity=max_velocity,
+        formulation=formulation,
+    )
+
+
+class PairBarrier:
+    """The native barrier between pairs of agents, with its values and gradients pair by pair."""
+
+    _UNLIMITED = {"overstretch": 1e9, "proximity": -1e9}
+
+    def __init__(self, kind, commanded, limits, alpha, margin=0.0, shares=True):
+        self._kind, self._limits = kind, np.asarray(limits)
+        self._settings = {"alpha": list(alpha), "margin": margin}
+        formulation = _control.Formulation.full()
+        formulation.shares = shares
+        agents = len(self._limits)
+        self._team = team(commanded, range(1, agents), agents, formulation)
+        self._native = self._with(self._limits)
+
+    def _with(self, limits):
+        return _control.Barrier(self._kind, {**self._settings, "limits": limits}, self._team)
+
+    def value(self, positions, agent, other):
+        """h [m] of a pair: the lowest of an agent when no other pair is limited."""
+        limits = np.full_like(self._limits, self._UNLIMITED[self._kind])
+        limits[agent, other] = limits[other, agent] = self._limits[agent, other]
+        return self._with(limits).value(positions, np.inf, agent)
+
+    def lowest(self, positions, agent):
+        return self._native.value(positions, np.inf, agent)
+
+    def gradient(self, positions, agent, other):
+        """dh / d held point of the agent, from the row that it alone is commanded by."""
+        alone = team([agent], range(1, len(self._limits)), len(self._limits), self._formulation())
+        native = _control.Barrier(self._kind, {**self._settings, "limits": self._limits}, alone)
+        state = _control.PredictedState(positions, np.zeros_like(positions))
+        others = [index for index in range(len(self._limits)) if index != agent]
+        return native.rows(NO_FEATURES, state).coefficients[others.index(other)]
+
+    @staticmethod
+    def _formulation():
+        return _control.Formulation.full()
+
+    def rows(self, state):
+        return self._native.rows(NO_FEATURES, state)
+
+
+NO_FEATURES = _control.Features(
+    np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2, 3))
+)
+
+
+def collision_barrier(commanded, assistants, formulation, **settings):
+    """The native collision barrier; settings replace those of its section."""
+    parameters = {
+        "alpha": [1.0, 5.0],
+        "anticipation": [0.4, 5.0],
+        "band": 0.1,
+        "margin": 0.0,
+        "offset": 0.05,
+        "speed_margin": 0.0,
+        **settings,
+    }
+    members = team(commanded, assistants, len(assistants) + 1, formulation)
+    return _control.Barrier("collision", parameters, members)
 
 
 def no_distances(copies):

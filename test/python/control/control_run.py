@@ -54,3 +54,6 @@ class Run:
 
     def all(self, field):
         return np.array([[getattr(each, field) for each in row] for row in self.decisions])
+
+    def h(self, barrier):
+        return np.array([[each.h[barrier] for each in row] for row in self.decisions])

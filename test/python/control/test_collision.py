@@ -3,13 +3,11 @@ import numpy as np
 import pytest
 
 from deformable_manipulation._control import (
-    CollisionBarrier,
     Differences,
     Features,
     Formulation,
     PiecewiseLinearClassK,
-    Situation,
-    Tier,
+    PredictedState,
 )
 
 SLOPES, OFFSET = (1.0, 5.0), 0.05
@@ -19,13 +17,13 @@ NORMAL = np.array([2.0, -1.0, 2.0]) / 3.0
 BAND = 1e6  # m: no row is loosened
 
 
-def situation(velocities, delay=0.0):
-    return Situation(np.zeros_like(velocities), velocities, leader=0, delay=delay)
+def state_of(velocities, delay=0.0):
+    return PredictedState(np.zeros_like(velocities), velocities, leader=0, delay=delay)
 
 
 def formulation(**settings):
-    """All that the rows of the safety tier have, one row per feature."""
-    result = Formulation()
+    """All that the limits have, one row per feature."""
+    result = Formulation.full()
     result.anticipation = False
     for name, value in settings.items():
         setattr(result, name, value)
@@ -47,15 +45,13 @@ def setting(assistants, seed):
 def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
     everybody = list(range(1, assistants + 1))
     return [
-        CollisionBarrier(
+        build.collision_barrier(
             [i],
             everybody,
-            OFFSET,
-            SLOPES,
+            formulation(**settings),
             band=band,
             margin=margin,
             speed_margin=speed_margin,
-            formulation=formulation(**settings),
         )
         for i in everybody
     ]
@@ -71,10 +67,10 @@ def distance_later(seconds, vertex, body, obstacle, positions, velocities):
 def test_rows_sum_to_the_whole_constraint(assistants, seed):
     """Sum of g . u - bound over the assistants is dh/dt + alpha(h), h moved in time."""
     body, obstacle, positions, velocities, features = setting(assistants, seed)
-    scene = situation(velocities)
+    state = state_of(velocities)
     total = 0.0
     for barrier, velocity in zip(barriers(assistants), velocities[1:]):
-        rows = barrier.rows(features, scene)
+        rows = barrier.rows(features, state)
         total = total + rows.coefficients @ velocity - rows.bounds
     depth = body.points(positions) @ NORMAL - obstacle.level
     vertices = [int(np.argmin(np.abs(depth - distance))) for distance in features.distance]
@@ -93,11 +89,11 @@ def test_rows_sum_to_the_whole_constraint(assistants, seed):
 def test_rows_of_all_together_are_the_sum_of_the_shares(seed):
     """And so the whole constraint."""
     *_, velocities, features = setting(3, seed)
-    scene = situation(velocities)
-    shares = [barrier.rows(features, scene) for barrier in barriers(3)]
-    together = CollisionBarrier(
-        [3, 1, 2], [1, 2, 3], OFFSET, SLOPES, band=BAND, formulation=formulation()
-    ).rows(features, scene)
+    state = state_of(velocities)
+    shares = [barrier.rows(features, state) for barrier in barriers(3)]
+    together = build.collision_barrier([3, 1, 2], [1, 2, 3], formulation(), band=BAND).rows(
+        features, state
+    )
     np.testing.assert_allclose(together.bounds, sum(rows.bounds for rows in shares), atol=1e-12)
     np.testing.assert_array_equal(
         together.coefficients, np.hstack([shares[i].coefficients for i in (2, 0, 1)])
@@ -106,14 +102,14 @@ def test_rows_of_all_together_are_the_sum_of_the_shares(seed):
 
 def test_distance_is_predicted_for_the_time_when_the_command_acts():
     body, obstacle, positions, velocities, features = setting(2, 3)
-    now = barriers(2)[0].rows(features, situation(velocities))
+    now = barriers(2)[0].rows(features, state_of(velocities))
     delay = 0.02
-    later = barriers(2)[0].rows(features, situation(velocities, delay))
+    later = barriers(2)[0].rows(features, state_of(velocities, delay))
     moved = build.observe(0.0, positions + delay * velocities, body, obstacle.at(delay))
     differences = Differences(3, leader=0)
     differences.update(moved)
     there = differences.features(moved)
-    exact = barriers(2)[0].rows(there, situation(velocities))
+    exact = barriers(2)[0].rows(there, state_of(velocities))
     assert abs(now.bounds[0] - exact.bounds[0]) > 1e-3
     np.testing.assert_allclose(later.bounds[0], exact.bounds[0], atol=1e-9)
 
@@ -127,9 +123,9 @@ def test_a_formation_along_the_obstacle_is_not_held_back():
     differences = Differences(3, leader=0)
     differences.update(observation)
     along = np.cross(NORMAL, (1.0, 0.0, 0.0))
-    scene = situation(np.tile(along, (3, 1)))
+    state = state_of(np.tile(along, (3, 1)))
     for barrier in barriers(2):
-        rows = barrier.rows(differences.features(observation), scene)
+        rows = barrier.rows(differences.features(observation), state)
         assert (rows.coefficients @ along >= rows.bounds - 1e-9).all()
 
 
@@ -137,7 +133,7 @@ def test_without_leader_velocity_and_shares_it_is_the_papers_row():
     _, _, _, velocities, features = setting(1, 1)
     still = Features(features.distance, features.normal, 0.0 * features.normal, features.gradients)
     barrier = barriers(1, leader_velocity=False, shares=False)[0]
-    rows = barrier.rows(still, situation(velocities))
+    rows = barrier.rows(still, state_of(velocities))
     alpha = np.array([PiecewiseLinearClassK(*SLOPES)(d - OFFSET) for d in features.distance])
     np.testing.assert_array_equal(rows.coefficients, features.gradients[:, 1])
     np.testing.assert_allclose(rows.bounds, -alpha)
@@ -148,10 +144,10 @@ def test_the_velocity_of_obstacles_may_be_left_out():
     standing = Features(
         features.distance, features.normal, 0.0 * features.normal, features.gradients
     )
-    scene = situation(velocities, 0.02)
-    left_out = barriers(2, obstacle_velocity=False)[0].rows(features, scene)
-    np.testing.assert_array_equal(left_out.bounds, barriers(2)[0].rows(standing, scene).bounds)
-    assert abs(left_out.bounds - barriers(2)[0].rows(features, scene).bounds).min() > 1e-3
+    state = state_of(velocities, 0.02)
+    left_out = barriers(2, obstacle_velocity=False)[0].rows(features, state)
+    np.testing.assert_array_equal(left_out.bounds, barriers(2)[0].rows(standing, state).bounds)
+    assert abs(left_out.bounds - barriers(2)[0].rows(features, state).bounds).min() > 1e-3
 
 
 def test_a_feature_that_nobody_moves_is_shared_equally():
@@ -161,32 +157,32 @@ def test_a_feature_that_nobody_moves_is_shared_equally():
     features = Features(np.array([0.0]), normal, 0.0 * normal, gradients)
     leader = np.array([0.0, 0.0, -0.1])
     for barrier in barriers(2):
-        rows = barrier.rows(features, situation(np.array([leader, [0, 0, 0], [0, 0, 0]])))
+        rows = barrier.rows(features, state_of(np.array([leader, [0, 0, 0], [0, 0, 0]])))
         np.testing.assert_array_equal(rows.coefficients, 0.0)
         np.testing.assert_allclose(rows.bounds, 0.5 * (0.1 + 5.0 * OFFSET))
 
 
 def one_feature(distances, leader=(0.0, 0.0, 0.0)):
-    """Level features above ground that assistant 1 raises half as fast as it rises, and a scene."""
+    """Level features above ground that assistant 1 raises half as fast as it rises, and a state."""
     count = len(distances)
     normal = np.tile((0.0, 0.0, 1.0), (count, 1))
     gradients = 0.5 * np.repeat(normal[:, None], 2, axis=1)
-    return Features(np.array(distances), normal, 0.0 * normal, gradients), situation(
+    return Features(np.array(distances), normal, 0.0 * normal, gradients), state_of(
         np.array([leader, [0.0, 0.0, 0.0]])
     )
 
 
 def test_rows_keep_their_margins_above_the_offset():
-    features, scene = one_feature([OFFSET + 0.01], leader=(0.1, 0.0, 0.0))
-    rows = barriers(1, margin=0.002, speed_margin=0.03)[0].rows(features, scene)
+    features, state = one_feature([OFFSET + 0.01], leader=(0.1, 0.0, 0.0))
+    rows = barriers(1, margin=0.002, speed_margin=0.03)[0].rows(features, state)
     np.testing.assert_allclose(rows.bounds, -(0.01 - 0.002 - 0.003))
 
 
 def test_a_softer_row_asks_earlier():
-    features, scene = one_feature([OFFSET + 0.02])
-    barrier = CollisionBarrier([1], [1], OFFSET, SLOPES, (0.4, 5.0))
-    rows = barrier.rows(features, scene)
-    assert rows.tiers == [Tier.COLLISION, Tier.ANTICIPATION]
+    features, state = one_feature([OFFSET + 0.02])
+    barrier = build.collision_barrier([1], [1], Formulation.full())
+    rows = barrier.rows(features, state)
+    assert rows.kinds == [0, 1]  # the limit, the wish
     np.testing.assert_allclose(rows.bounds, [-0.02, -0.008])
     np.testing.assert_array_equal(rows.coefficients[0], rows.coefficients[1])
 

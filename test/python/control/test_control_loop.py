@@ -29,12 +29,12 @@ def dive(assistants, safety=True, duration=11.0, **settings):
 @pytest.mark.parametrize("assistants", [1, 2, 3])
 def test_keeps_off_the_ground_while_the_leader_dives(assistants, cooperation):
     run = dive(assistants, cooperation=cooperation)
-    assert run.all("h_collision").min() >= -1e-3
-    assert run.all("h_overstretch").min() >= -1e-3
-    assert run.all("h_proximity").min() >= -1e-3
+    assert run.h("collision").min() >= -1e-3
+    assert run.h("overstretch").min() >= -1e-3
+    assert run.h("proximity").min() >= -1e-3
     assert set(run.all("status").flat) <= {Status.NOMINAL, Status.CONSTRAINED}
     # It comes near, and the leader alone stays clear of the ground.
-    assert run.all("h_collision").min() < 0.02
+    assert run.h("collision").min() < 0.02
     assert run.positions[:, 0, 2].min() > 0.3
 
 
@@ -43,14 +43,14 @@ def test_the_object_hits_the_ground_without_the_filter():
 
 
 def test_leaving_the_leaders_velocity_out_breaks_the_offset():
-    lowest = dive(1).all("h_collision").min()
-    assert dive(1, feedforward=False, duration=7.0).all("h_collision").min() < lowest - 2e-3
+    lowest = dive(1).h("collision").min()
+    assert dive(1, feedforward=False, duration=7.0).h("collision").min() < lowest - 2e-3
 
 
 def test_the_papers_formulation_falls_short_on_the_same_dive():
     papers = build.scenario(1, DIVE, formulation="paper", feedforward=False)
-    lowest = Run(papers, 7.0).all("h_collision").min()
-    assert lowest < -1e-3 < 0.0 <= dive(1).all("h_collision").min()
+    lowest = Run(papers, 7.0).h("collision").min()
+    assert lowest < -1e-3 < 0.0 <= dive(1).h("collision").min()
 
 
 @pytest.mark.parametrize("cooperation", [DECENTRALISED, CENTRALISED])
@@ -58,8 +58,8 @@ def test_the_papers_formulation_falls_short_on_the_same_dive():
 def test_commands_do_not_oscillate(assistants, cooperation):
     run = dive(assistants, cooperation=cooperation)
     high_pass = butter(4, 1.0, "highpass", fs=100.0)  # Hz
-    for field in ("distance", "h_overstretch", "h_proximity"):
-        fast = filtfilt(*high_pass, run.all(field), axis=0)
+    for signal in (run.all("distance"), run.h("overstretch"), run.h("proximity")):
+        fast = filtfilt(*high_pass, signal, axis=0)
         assert np.sqrt(np.mean(fast**2)) < 2e-4
     steps = np.diff(run.all("command"), axis=0)
     assert np.abs(steps).max() <= 0.01 + 1e-9  # 1 m/s^2
@@ -78,7 +78,7 @@ def test_follows_without_error_far_from_obstacles(assistants):
 def test_gives_way_to_a_moving_obstacle():
     rising = build.HalfSpace((0.0, 0.0, 1.0), 0.2, (0.0, 0.0, 0.03))
     run = Run(build.scenario(1), 8.0, rising)
-    assert run.all("h_collision").min() >= -1e-3
+    assert run.h("collision").min() >= -1e-3
     assert run.positions[-1, 1, 2] > run.positions[0, 1, 2] + 0.05
 
 
@@ -86,5 +86,5 @@ def test_a_formation_at_its_stretch_limit_moves_on():
     apart = ((0.0, (0, 0, 0)), (0.5, (0, 0, 0)), (4.5, (0, -0.25, 0)))
     scenario = build.scenario(2, apart, overstretch=OverstretchSpec(1.501, margin=0.0))
     run = Run(scenario, 7.0, FAR)
-    assert run.all("h_overstretch").min() >= -1e-3
+    assert run.h("overstretch").min() >= -1e-3
     assert run.all("error_norm").max() < 5e-3

@@ -52,7 +52,7 @@ def test_gradients_of_all_agents(setting, directions):
 def test_a_feature_between_two_points_takes_its_material_point(setting):
     body, obstacle, positions = setting
     observation = build.observe(0.0, positions, body, obstacle)
-    distances = dataclasses.replace(
+    distances = build.changed(
         observation.distances,
         vertices=np.tile((1, 4, 0), (len(observation.distances.distance), 1)),
         weights=np.tile((0.25, 0.75, 0.0), (len(observation.distances.distance), 1)),

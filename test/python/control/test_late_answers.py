@@ -45,7 +45,6 @@ def test_the_offset_holds_though_all_answers_are_late():
     collision = CollisionSpec(offset=0.05, margin=0.0, alpha=steep, anticipation=steep)
     scenario = build.scenario(1, waypoints, collision=collision, max_velocity=0.5)
     lowest = {
-        told: Run(scenario, 6.0, late=5, told=told).all("h_collision").min()
-        for told in (True, False)
+        told: Run(scenario, 6.0, late=5, told=told).h("collision").min() for told in (True, False)
     }
     assert lowest[False] < -5e-3 < -1e-6 < lowest[True]

@@ -8,21 +8,21 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog, minimize
 
 from deformable_manipulation import _control
-from deformable_manipulation._control import Tier
 from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.control.status import Status
 
 TOLERANCE = 1e-6  # m/s
 LIMIT = 0.15
-LIMITS = (Tier.COLLISION, Tier.OVERSTRETCH, Tier.PROXIMITY)
-PRIORITY = ("collision", "overstretch", "proximity")
+LIMITS = COLLISION, OVERSTRETCH, PROXIMITY = (0, 1, 2)  # kinds of rows
+ANTICIPATION = 3
+PRIORITY = LIMITS
 LOWER, UPPER = np.full(3, -LIMIT), np.full(3, LIMIT)
 
 
 class Rows(NamedTuple):
-    """Rows of one tier."""
+    """Rows of one kind."""
 
-    tier: Tier
+    kind: int
     coefficients: np.ndarray  # (R, n)
     bounds: np.ndarray  # (R,)
 
@@ -34,37 +34,38 @@ class Filtered(NamedTuple):
 
 
 class SafetyFilter:
-    """The native filter, with rows given by their tiers."""
+    """The native filter, with rows given by their kinds."""
 
-    def __init__(self, weights, **settings):
+    def __init__(self, weights, priority=PRIORITY, **settings):
+        settings["priority"] = priority
         self._native = _control.SafetyFilter(weights, **settings)
 
     def filter(self, nominal, parts, lower, upper):
         stack = _control.ConstraintRows(len(nominal))
         for part in parts:
             for coefficients, bound in zip(part.coefficients, part.bounds):
-                stack.add(part.tier, coefficients, bound)
+                stack.add(part.kind, coefficients, bound)
         velocity, status, slack = self._native.filter(nominal, stack, lower, upper)
-        tiers = (*LIMITS, Tier.ANTICIPATION)
-        return Filtered(velocity, Status(status), dict(zip(tiers, slack)))
+        kinds = (*LIMITS, ANTICIPATION)
+        return Filtered(velocity, Status(status), dict(zip(kinds, slack)))
 
 
-def rows(tier, coefficients, bounds):
+def rows(kind, coefficients, bounds):
     return Rows(
-        tier,
+        kind,
         np.atleast_2d(np.array(coefficients, dtype=float)),
         np.atleast_1d(np.array(bounds, dtype=float)),
     )
 
 
 def random_problem(generator, spread):
-    """Nominal velocity and rows of all tiers; the larger the spread, the fewer are feasible."""
+    """Nominal velocity and rows of all kinds; the larger the spread, the fewer are feasible."""
     parts = []
-    for tier in LIMITS:
+    for kind in LIMITS:
         count = generator.integers(1, 4)
         coefficients = generator.normal(size=(count, 3))
         coefficients /= np.linalg.norm(coefficients, axis=1)[:, None]
-        parts.append(Rows(tier, coefficients, generator.uniform(-0.1, spread, size=count)))
+        parts.append(Rows(kind, coefficients, generator.uniform(-0.1, spread, size=count)))
     return generator.uniform(-0.3, 0.3, size=3), parts
 
 
@@ -120,7 +121,7 @@ def infeasible_problems(count, spread=0.25):
 
 
 def yielding(part):
-    """Part of its tier's slack that each row yields (docs/mathematics.md)."""
+    """Part of its kind's slack that each row yields (docs/mathematics.md)."""
     units = part.coefficients / np.linalg.norm(part.coefficients, axis=1)[:, None]
     against = np.maximum(0.0, -units @ units.T)
     demands = part.bounds / (np.abs(part.coefficients) @ UPPER)
@@ -137,7 +138,7 @@ def missing(part, velocity):
 
 
 def by_priority(parts):
-    """Least slack of each tier, one linear program after the other (strictly lexicographic)."""
+    """Least slack of each kind, one linear program after the other (strictly lexicographic)."""
     A, b, slack = np.empty((0, 3)), np.empty(0), []
     for part in parts:
         reachable = np.minimum(part.bounds, np.abs(part.coefficients) @ UPPER)
@@ -156,7 +157,7 @@ def by_priority(parts):
 
 
 def test_priority_of_random_infeasible_problems():
-    """As strict as a factor of 100 between the tiers allows: nearly always lexicographic."""
+    """As strict as a factor of 100 between the kinds allows: nearly always lexicographic."""
     safety, exact, problems = SafetyFilter(np.ones(3)), 0, 60
     for nominal, parts in infeasible_problems(problems):
         result = safety.filter(nominal, parts, LOWER, UPPER)
@@ -168,7 +169,7 @@ def test_priority_of_random_infeasible_problems():
         exact += np.abs(lost).max() < 1e-5
         for part in parts:
             short = max(0.0, (part.bounds - part.coefficients @ result.velocity).max())
-            assert result.slack[part.tier] == pytest.approx(short, abs=TOLERANCE)
+            assert result.slack[part.kind] == pytest.approx(short, abs=TOLERANCE)
     assert exact >= 0.95 * problems
 
 
@@ -180,7 +181,7 @@ def test_badly_scaled_rows_and_far_nominal_velocities_are_solved(weights, scale)
         nominal, parts = random_problem(generator, 0.25)
         parts = [
             Rows(
-                p.tier,
+                p.kind,
                 p.coefficients * 10.0 ** generator.uniform(-5, 1, (len(p.bounds), 1)),
                 p.bounds,
             )
@@ -228,8 +229,8 @@ def test_collision_outranks_overstretch_outranks_proximity():
 @pytest.mark.parametrize("priority", list(itertools.permutations(PRIORITY)))
 def test_the_priority_is_the_users(priority):
     safety = SafetyFilter(np.ones(3), priority=list(priority))
-    tiers = [LIMITS[PRIORITY.index(name)] for name in priority]
-    for high, low in itertools.combinations(tiers, 2):
+    kinds = [LIMITS[PRIORITY.index(name)] for name in priority]
+    for high, low in itertools.combinations(kinds, 2):
         parts = [rows(low, [-1.0, 0.0, 0.0], 0.05), rows(high, [1.0, 0.0, 0.0], 0.1)]
         result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
         np.testing.assert_allclose(result.velocity, [0.1, 0.0, 0.0], atol=1e-8)
@@ -251,15 +252,15 @@ def test_a_priority_is_an_order_of_the_limits(priority):
 
 
 def test_anticipation_pulls_and_gives_way_to_every_limit():
-    wish = rows(Tier.ANTICIPATION, [1.0, 0.0, 0.0], 0.11)
+    wish = rows(ANTICIPATION, [1.0, 0.0, 0.0], 0.11)
     safety = SafetyFilter(np.ones(3))
     pulled = safety.filter(np.zeros(3), [wish], LOWER, UPPER)
     # 1/2 u^2 + 10/2 (0.11 - u)^2 is least at 0.1.
     np.testing.assert_allclose(pulled.velocity, [0.1, 0.0, 0.0], atol=1e-8)
     assert pulled.status == Status.CONSTRAINED
-    assert pulled.slack[Tier.ANTICIPATION] == pytest.approx(0.01)
-    for tier in LIMITS:
-        against = rows(tier, [-1.0, 0.0, 0.0], 0.02)
+    assert pulled.slack[ANTICIPATION] == pytest.approx(0.01)
+    for kind in LIMITS:
+        against = rows(kind, [-1.0, 0.0, 0.0], 0.02)
         result = safety.filter(np.zeros(3), [wish, against], LOWER, UPPER)
         np.testing.assert_allclose(result.velocity, [-0.02, 0.0, 0.0], atol=1e-8)
         assert result.status == Status.CONSTRAINED
@@ -267,7 +268,7 @@ def test_anticipation_pulls_and_gives_way_to_every_limit():
 
 def test_without_relaxation_contradicting_rows_fail():
     """The paper's program."""
-    parts = [rows(Tier.COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
+    parts = [rows(COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
     safety = SafetyFilter(np.ones(3), relaxation=False)
     result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
     assert result.status == Status.FAILED
@@ -290,8 +291,8 @@ def test_several_assistants_in_one_program():
     reference = SafetyFilter(np.ones(9), solver=find_solver("quadprog"))
     for _ in range(30):
         parts = [
-            rows(tier, generator.normal(size=(count, 9)), 0.2 * generator.normal(size=count))
-            for tier, count in ((Tier.COLLISION, 60), (Tier.OVERSTRETCH, 6))
+            rows(kind, generator.normal(size=(count, 9)), 0.2 * generator.normal(size=count))
+            for kind, count in ((COLLISION, 60), (OVERSTRETCH, 6))
         ]
         given = generator.uniform(-0.3, 0.3, 9), parts, np.full(9, -LIMIT), np.full(9, LIMIT)
         ours, theirs = native.filter(*given), reference.filter(*given)
@@ -307,43 +308,43 @@ def test_the_command_is_continuous_where_limits_begin_to_contradict(direction):
     tilted = axis + 0.3 * np.eye(3)[direction - 1]
     velocities = []
     for bound in np.linspace(-0.1, 0.1, 401):
-        parts = [rows(Tier.COLLISION, tilted, 0.02), rows(Tier.OVERSTRETCH, -axis, bound)]
+        parts = [rows(COLLISION, tilted, 0.02), rows(OVERSTRETCH, -axis, bound)]
         result = safety.filter(np.full(3, 0.05), parts, LOWER, UPPER)
         velocities.append(result.velocity)
     assert np.abs(np.diff(velocities, axis=0)).max() < 10 * 0.2 / 400
 
 
-def test_the_worst_row_of_a_tier_is_relieved_as_far_as_possible():
-    parts = [rows(Tier.COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
+def test_the_worst_row_of_a_kind_is_relieved_as_far_as_possible():
+    parts = [rows(COLLISION, [[1, 0, 0], [-1, 0, 0]], [0.1, 0.02])]
     result = SafetyFilter(np.ones(3)).filter(np.zeros(3), parts, LOWER, UPPER)
     np.testing.assert_allclose(result.velocity, [0.04, 0.0, 0.0], atol=1e-8)
-    assert result.slack[Tier.COLLISION] == pytest.approx(0.06)
+    assert result.slack[COLLISION] == pytest.approx(0.06)
 
 
 @pytest.mark.parametrize("hopeless", [[0.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [5e-4, 0.0, -4e-4]])
 def test_a_row_beyond_the_agents_influence_does_not_hamper_the_others(hopeless):
     nominal = np.array([0.1, 0.0, -0.1])
-    helpful = rows(Tier.COLLISION, [0.0, 0.0, 1.0], -0.03)
+    helpful = rows(COLLISION, [0.0, 0.0, 1.0], -0.03)
     safety = SafetyFilter(np.ones(3))
     alone = safety.filter(nominal, [helpful], LOWER, UPPER)
-    both = safety.filter(nominal, [rows(Tier.COLLISION, hopeless, 0.4), helpful], LOWER, UPPER)
+    both = safety.filter(nominal, [rows(COLLISION, hopeless, 0.4), helpful], LOWER, UPPER)
     np.testing.assert_allclose(both.velocity, alone.velocity, atol=1e-8)
     assert both.status == Status.RELAXED
-    assert both.slack[Tier.COLLISION] == pytest.approx(0.4, abs=1e-3)
+    assert both.slack[COLLISION] == pytest.approx(0.4, abs=1e-3)
 
 
 def test_a_row_out_of_reach_takes_all_it_can_get():
-    parts = [rows(Tier.COLLISION, [0.0, 0.0, 0.5], 2.0)]
+    parts = [rows(COLLISION, [0.0, 0.0, 0.5], 2.0)]
     result = SafetyFilter(np.ones(3)).filter(np.array([0.1, 0.0, 0.0]), parts, LOWER, UPPER)
     np.testing.assert_allclose(result.velocity, [0.1, 0.0, LIMIT], atol=1e-8)
-    assert result.slack[Tier.COLLISION] == pytest.approx(2.0 - 0.5 * LIMIT)
+    assert result.slack[COLLISION] == pytest.approx(2.0 - 0.5 * LIMIT)
 
 
 @pytest.mark.parametrize("one, other", [(0.06, 0.03), (0.03, 0.06), (0.3, 0.06), (0.4, 0.4)])
 def test_rows_out_of_reach_that_contradict_come_to_share_what_both_miss(one, other):
     """Not held at the velocity that they met at, which is in the middle of what a cycle allows."""
     safety, step = SafetyFilter(np.ones(3)), 0.01
-    parts = [rows(Tier.PROXIMITY, [[1, 0, 0], [-1, 0, 0]], [one, other])]
+    parts = [rows(PROXIMITY, [[1, 0, 0], [-1, 0, 0]], [one, other])]
     velocity, steps = np.zeros(3), []
     for _ in range(200):
         lower, upper = np.maximum(velocity - step, LOWER), np.minimum(velocity + step, UPPER)
@@ -360,7 +361,7 @@ def test_the_command_is_continuous_where_rows_of_a_limit_contradict(angle):
     turned = [np.cos(np.radians(angle)), np.sin(np.radians(angle)), 0.0]
     velocities = []
     for bound in np.linspace(-0.04, 0.06, 401):
-        parts = [rows(Tier.PROXIMITY, [[1, 0, 0], turned], [0.05, bound])]
+        parts = [rows(PROXIMITY, [[1, 0, 0], turned], [0.05, bound])]
         result = safety.filter(np.full(3, 0.002), parts, np.full(3, -step), np.full(3, step))
         velocities.append(result.velocity)
     assert np.abs(np.diff(velocities, axis=0)).max() < 10 * 0.1 / 400
@@ -376,7 +377,7 @@ finite = st.floats(-1e3, 1e3)
     st.tuples(st.floats(0.0, LIMIT), st.floats(0.0, LIMIT), st.floats(0.0, LIMIT)),
 )
 def test_bounds_always_hold(parts, nominal, half):
-    parts = [rows(tier, [x, y, z], b) for tier, x, y, z, b in parts]
+    parts = [rows(kind, [x, y, z], b) for kind, x, y, z, b in parts]
     upper = np.array(half)
     result = SafetyFilter(np.ones(3)).filter(np.array(nominal), parts, -upper, upper)
     assert np.isfinite(result.velocity).all()
@@ -398,7 +399,7 @@ def test_what_is_not_finite_gives_zero(value, place):
         "upper": UPPER.copy(),
     }
     given[place].flat[1] = value
-    parts = [Rows(Tier.COLLISION, given["coefficients"], given["bounds"])]
+    parts = [Rows(COLLISION, given["coefficients"], given["bounds"])]
     with np.errstate(invalid="ignore"):
         result = SafetyFilter(np.ones(3)).filter(
             given["nominal"], parts, given["lower"], given["upper"]
@@ -412,7 +413,7 @@ def test_what_is_not_finite_gives_zero(value, place):
 )
 def test_an_invalid_answer_of_the_solver_is_never_a_command(answer):
     safety = SafetyFilter(np.ones(3), solver=lambda P, q, A, b: answer)
-    parts = [rows(Tier.COLLISION, [1.0, 0.0, 0.0], 0.1)]
+    parts = [rows(COLLISION, [1.0, 0.0, 0.0], 0.1)]
     result = safety.filter(np.array([0.05, 0.0, 0.0]), parts, LOWER, UPPER)
     assert result.status == Status.FAILED
     np.testing.assert_array_equal(result.velocity, 0.0)

@@ -41,7 +41,7 @@ def test_each_has_a_decision_of_its_own(scenario):
         np.testing.assert_allclose(decision.command, -at, atol=1e-12)
         for field in ("nominal", "position", "target", "jacobian"):
             np.testing.assert_array_equal(getattr(decision, field), getattr(alone, field))
-        for field in ("distance", "h_overstretch", "h_proximity", "leader_drift"):
+        for field in ("distance", "h", "leader_drift"):
             assert getattr(decision, field) == getattr(alone, field)
 
 

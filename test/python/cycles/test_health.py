@@ -110,8 +110,10 @@ def report_on(*decisions):
 
 def test_decisions_in_order():
     report = report_on(
-        decision(Status.NOMINAL, h_collision=0.2, distance=0.25),
-        decision(Status.CONSTRAINED, h_collision=0.1, distance=0.15, rows=4, exact_jacobian=True),
+        decision(Status.NOMINAL, h={"collision": 0.2}, distance=0.25),
+        decision(
+            Status.CONSTRAINED, h={"collision": 0.1}, distance=0.15, rows=4, exact_jacobian=True
+        ),
     )
     assert report.level is Level.OK
     assert "in 1 of 2 cycles; all limits hold" in report.text
@@ -124,7 +126,7 @@ def test_decisions_in_order():
 
 def test_limits_that_are_missed_are_told_with_their_slack():
     report = report_on(
-        decision(Status.RELAXED, slack_collision=0.002, slack_overstretch=0.0001),
+        decision(Status.RELAXED, slack={"collision": 0.002, "overstretch": 0.0001}),
         decision(Status.NOMINAL),
     )
     assert report.level is Level.WARN

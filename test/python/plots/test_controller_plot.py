@@ -69,8 +69,8 @@ def test_panels_show_the_series_over_one_time_axis():
     np.testing.assert_array_equal(distance.lines[1].get_ydata(), [OFFSET, OFFSET])
     np.testing.assert_array_equal(error.lines[0].get_ydata(), series.error_norm)
     np.testing.assert_array_equal(margin.lines[0].get_ydata(), [0, 0])
-    np.testing.assert_array_equal(margin.lines[1].get_ydata(), series.h_overstretch)
-    np.testing.assert_array_equal(margin.lines[2].get_ydata(), series.h_proximity)
+    np.testing.assert_array_equal(margin.lines[1].get_ydata(), series.h["overstretch"])
+    np.testing.assert_array_equal(margin.lines[2].get_ydata(), series.h["proximity"])
     np.testing.assert_array_equal(velocity.lines[0].get_ydata(), series.command[:, 1])
     np.testing.assert_array_equal(velocity.lines[1].get_ydata(), series.nominal_velocity[:, 1])
     assert [axis.get_xlim() for axis in figure.axes] == [(0.0, 10.0)] * 4

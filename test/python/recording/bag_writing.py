@@ -70,11 +70,17 @@ class BagWriter:
             for axis, number in zip("xyz", getattr(decision, attribute))
         }
         for field in (
-            "distance h_collision h_overstretch h_proximity exact_jacobian leader_drift rows "
-            "slack_collision slack_overstretch slack_proximity solve_time computation_time "
-            "error_norm enabled"
+            "distance exact_jacobian leader_drift rows solve_time computation_time error_norm "
+            "enabled"
         ).split():
             values[field] = getattr(decision, field)
+        values.update(
+            barriers=list(decision.h),
+            h=np.array(list(decision.h.values())),
+            slack=np.array(list(decision.slack.values())),
+        )
+        for name, h in decision.h.items():
+            values.update({f"h_{name}": h, f"slack_{name}": decision.slack[name]})
         values.update(status=int(decision.status), status_text="", agent=agent)
         values.update(overruns=0, skipped_states=0, **changes)
         message = self._message(CONTROLLER_STATE, cycle, reset_count, values)

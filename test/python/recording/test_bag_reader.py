@@ -55,7 +55,10 @@ def test_every_series_comes_from_the_messages(bag, compression):
     np.testing.assert_allclose(run.time, np.arange(20) / RATE, atol=1e-6)
     np.testing.assert_allclose(series.time, np.arange(20) / RATE, atol=1e-6)
     np.testing.assert_array_equal(run.distance, [decision.distance for decision in decisions])
-    for name in "distance error_norm h_collision h_overstretch h_proximity command status".split():
+    for name in ("collision", "overstretch", "proximity"):
+        expected = [decision.h[name] for decision in decisions]
+        np.testing.assert_array_equal(series.h[name], expected)
+    for name in "distance error_norm command status".split():
         expected = [getattr(decision, name) for decision in decisions]
         np.testing.assert_array_equal(getattr(series, name), expected)
     expected = [decision.nominal for decision in decisions]
@@ -179,12 +182,22 @@ def test_a_topic_of_that_name_with_another_type_is_no_controller(bag):
         read_run(bag)
 
 
-def test_an_older_message_definition_names_what_is_missing(bag):
+def test_recordings_without_a_list_of_barriers_have_the_plain_scalars(bag):
     definition = (MESSAGES / "ControllerState.msg").read_text()
-    older = "\n".join(line for line in definition.splitlines() if "h_proximity" not in line)
+    lists = ("string[] barriers", "float64[] h", "float64[] slack")
+    older = "\n".join(line for line in definition.splitlines() if not line.startswith(lists))
     with BagWriter(bag, typestore=make_typestore(ControllerState=older)) as writer:
         writer.cycle(0)
-    with pytest.raises(RunDataError, match="another version of .*ControllerState.*h_proximity"):
+    (series,) = read_run(bag).assistants
+    assert {name: values[0] for name, values in series.h.items()} == make_decision(0).h
+
+
+def test_an_older_message_definition_names_what_is_missing(bag):
+    definition = (MESSAGES / "ControllerState.msg").read_text()
+    older = "\n".join(line for line in definition.splitlines() if "error_norm" not in line)
+    with BagWriter(bag, typestore=make_typestore(ControllerState=older)) as writer:
+        writer.cycle(0)
+    with pytest.raises(RunDataError, match="another version of .*ControllerState.*error_norm"):
         read_run(bag)
 
 

@@ -29,7 +29,10 @@ def test_a_run_folder_gives_what_was_recorded(run_folder):
     assert [series.agent for series in run.assistants] == ["assistant_1", "assistant_2"]
     for phase, series in enumerate(run.assistants):
         decisions = [make_decision(cycle, phase) for cycle in range(20)]
-        for name in "error_norm h_collision h_overstretch h_proximity command status".split():
+        for name in ("collision", "overstretch", "proximity"):
+            expected = [decision.h[name] for decision in decisions]
+            np.testing.assert_allclose(series.h[name], expected, rtol=1e-11)
+        for name in "error_norm command status".split():
             expected = [getattr(decision, name) for decision in decisions]
             np.testing.assert_allclose(getattr(series, name), expected, rtol=1e-11)
         expected = [decision.nominal for decision in decisions]
@@ -44,7 +47,9 @@ def test_folder_and_bag_of_the_same_run_agree(run_folder, tmp_path):
     np.testing.assert_allclose(bag.time, folder.time, atol=1e-9)
     np.testing.assert_allclose(bag.distance, folder.distance, rtol=1e-11)
     assert bag.offset == pytest.approx(folder.offset)
-    for name in "error_norm h_collision h_overstretch h_proximity nominal_velocity command".split():
+    for name, h in folder.assistants[0].h.items():
+        np.testing.assert_allclose(bag.assistants[0].h[name], h, rtol=1e-11)
+    for name in "error_norm nominal_velocity command".split():
         in_bag, in_folder = getattr(bag.assistants[0], name), getattr(folder.assistants[0], name)
         np.testing.assert_allclose(in_bag, in_folder, rtol=1e-11)
 
@@ -79,7 +84,7 @@ def test_figures_of_a_bag_carry_its_name(tmp_path, capsys):
         (lambda text: "", "holds no cycle"),
         (lambda text: text.splitlines()[0] + "\n", "holds no cycle"),
         (lambda text: text[: text.rindex(",")], r"line 21: \d+ values for \d+ columns; .* cut off"),
-        (lambda text: text.replace(".h_proximity", ".h"), "lacks .* assistant_1.h_proximity"),
+        (lambda text: text.replace(".error_norm", ".e"), "lacks .* assistant_1.error_norm"),
         (lambda text: text.replace("time", "t", 1), "lacks the columns time"),
         (lambda text: text.replace("\n3,0.03,", "\n3,soon,"), "column time: .*'soon'"),
     ],

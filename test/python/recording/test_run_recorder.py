@@ -56,10 +56,10 @@ def test_time_series_holds_every_recorded_number(tmp_path):
             expected.update(vector(f"{name}.command", decision.command))
             expected.update(vector(f"{name}.jacobian", decision.jacobian))
             expected[f"{name}.error_norm"] = np.linalg.norm(decision.error)
-            for scalar in (
-                "h_collision h_overstretch h_proximity exact_jacobian leader_drift slack_collision "
-                "slack_overstretch slack_proximity status rows solve_time"
-            ).split():
+            for barrier in ("collision", "overstretch", "proximity"):
+                expected[f"{name}.h_{barrier}"] = decision.h[barrier]
+                expected[f"{name}.slack_{barrier}"] = decision.slack[barrier]
+            for scalar in "exact_jacobian leader_drift status rows solve_time".split():
                 expected[f"{name}.{scalar}"] = float(getattr(decision, scalar))
         assert row == pytest.approx(expected, rel=1e-11)
 
@@ -130,8 +130,11 @@ def test_summary_numbers(scenario, tmp_path):
         decision = dataclasses.replace(
             make_decision(cycle, status=status),
             error=np.array([0.0, 0.3, 0.4]) * (4 - cycle),
-            h_overstretch=0.01 - 0.001 * cycle,
-            h_proximity=0.5,
+            h={
+                "collision": distance - OFFSET,
+                "overstretch": 0.01 - 0.001 * cycle,
+                "proximity": 0.5,
+            },
         )
         recorder.record(
             make_record(
@@ -160,7 +163,9 @@ def test_summary_numbers(scenario, tmp_path):
     }
     assert summary.pop("version").count(".") == 2
     assert summary.pop("worst_violation") == pytest.approx(0.019)
-    assert summary.pop("min_stretch_margin") == pytest.approx(0.007)
+    assert summary.pop("min_margin") == pytest.approx(
+        {"collision": -0.019, "overstretch": 0.007, "proximity": 0.5}
+    )
     assert summary == {
         "scenario": "synthetic",
         "completed": True,
@@ -197,9 +202,7 @@ def test_the_error_of_a_waiting_cycle_is_left_out(scenario, tmp_path):
 
 
 def test_summary_is_strict_json_without_obstacle_or_with_unknown_numbers(scenario, tmp_path):
-    unknown = dataclasses.replace(
-        make_decision(0), error=np.full(3, np.nan), h_overstretch=np.nan, h_proximity=np.nan
-    )
+    unknown = dataclasses.replace(make_decision(0), error=np.full(3, np.nan), h={})
     recorder = RunRecorder(scenario, tmp_path / "run")
     recorder.record(make_record(scenario, 0, distance=np.inf, decisions={"assistant_1": unknown}))
     recorder.finish(float("nan"), True)
@@ -207,7 +210,7 @@ def test_summary_is_strict_json_without_obstacle_or_with_unknown_numbers(scenari
     summary = json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
     assert summary["min_distance"] is None
     assert summary["worst_violation"] == 0.0
-    assert summary["min_stretch_margin"] is None
+    assert set(summary["min_margin"].values()) == {None}
     assert summary["tracking_error"]["assistant_1"] == {"rms": None, "max": None, "final": None}
     assert summary["wall_time"] is None
 

@@ -234,19 +234,18 @@ def test_a_decision_as_a_message(state, scenario):
     for name in (
         "error_norm",
         "distance",
-        "h_collision",
-        "h_overstretch",
-        "h_proximity",
         "leader_drift",
         "rows",
-        "slack_collision",
-        "slack_overstretch",
-        "slack_proximity",
         "solve_time",
         "computation_time",
     ):
         value = getattr(decision, name)
         assert getattr(received, name) == value or math.isnan(value), name
+    assert dict(zip(received.barriers, received.h)) == decision.h
+    assert dict(zip(received.barriers, received.slack)) == decision.slack
+    for name in ("collision", "overstretch", "proximity"):
+        assert getattr(received, f"h_{name}") == decision.h[name]
+        assert getattr(received, f"slack_{name}") == decision.slack[name]
 
 
 def test_a_command_answers_its_state(state):

@@ -51,8 +51,8 @@ def test_what_is_recorded_is_the_truth():
         apart = np.linalg.norm(record.positions[0] - record.positions[1])
         assert record.distance == distance.compute(record.points[None]).minimum[0]
         assert decision.distance == record.distance
-        assert decision.h_overstretch == pytest.approx(limits.max_distance - apart, abs=1e-12)
-        assert decision.h_proximity == pytest.approx(apart - limits.min_distance, abs=1e-12)
+        assert decision.h["overstretch"] == pytest.approx(limits.max_distance - apart, abs=1e-12)
+        assert decision.h["proximity"] == pytest.approx(apart - limits.min_distance, abs=1e-12)
         np.testing.assert_array_equal(decision.position, record.positions[imperfect.assistants[0]])
 
 

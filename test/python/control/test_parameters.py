@@ -1,0 +1,67 @@
+"""The controller's parameters on their way to the C++ core: none is forgotten."""
+
+import copy
+
+import pytest
+import yaml
+
+from deformable_manipulation import _control
+from deformable_manipulation.control.parameters import native_parameters
+from deformable_manipulation.reading.parameter import declared_below
+from deformable_manipulation.scenario import load_scenario
+from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.controller import ControllerSpec
+
+WORKSPACE = {"planes": [{"point": [0, 0, 9], "normal": [0, 0, -1]}]}
+DECLARED = [
+    (path, declaration)
+    for path, declaration in declared_below(ControllerSpec)
+    if path[:2] not in {("workspace", "planes"), ("workspace", "spheres")} or len(path) == 2
+]
+
+
+@pytest.fixture(scope="module")
+def parameters():
+    """With every barrier that there is."""
+    override = ("controller.workspace", yaml.safe_dump(WORKSPACE))
+    scenario = load_scenario("rope_one_assistant", [override])
+    assert set(scenario.controller.barriers) == set(BARRIERS)
+    return native_parameters(scenario, ["assistant_1"], True)
+
+
+def without(mapping, path):
+    """The section without one key."""
+    changed = copy.deepcopy(mapping)
+    section = changed
+    for key in path[:-1]:
+        section = section[key]
+    del section[path[-1]]
+    return changed
+
+
+def test_there_is_a_native_barrier_of_each_name():
+    assert set(_control.barrier_names()) == set(BARRIERS)
+
+
+@pytest.mark.parametrize("path, declaration", DECLARED, ids=lambda each: str(each)[:40])
+def test_the_core_reads_what_is_declared_as_native_and_nothing_else(parameters, path, declaration):
+    changed = without(parameters.controller, path)
+    if declaration.native:
+        with pytest.raises(ValueError, match=r"controller\." + r"\.".join(path)):
+            _control.TeamController(changed, parameters.team)
+    else:
+        _control.TeamController(changed, parameters.team)
+
+
+@pytest.mark.parametrize("barrier", ["overstretch", "proximity"])
+def test_what_a_barrier_derives_is_needed(parameters, barrier):
+    with pytest.raises(ValueError, match=f"controller.{barrier}.limits"):
+        _control.TeamController(
+            without(parameters.controller, (barrier, "limits")), parameters.team
+        )
+
+
+@pytest.mark.parametrize("key", ["agents", "leader", "assistants", "commanded", "references"])
+def test_the_team_is_needed(parameters, key):
+    with pytest.raises(ValueError, match=f"team.{key}"):
+        _control.TeamController(parameters.controller, without(parameters.team, (key,)))
