@@ -135,7 +135,7 @@ py::slice rowsOfCopy(const NamedDistances& d, int copy) {
   if (copy < 0 || copy + 1 >= static_cast<int>(offsets.size())) {
     throw py::index_error("there are copies 0 to " + std::to_string(static_cast<int>(offsets.size()) - 2));
   }
-  return py::slice(offsets[copy], offsets[copy + 1], 1);
+  return py::slice(py::int_(offsets[copy]), py::int_(offsets[copy + 1]), py::none());
 }
 
 }  // namespace

@@ -92,8 +92,18 @@ def compute(mesh, points, triangles=None, band=0.3, features="elements", margin=
     return fields(calculator, points if points.ndim == 3 else points[None], triangles)
 
 
+def fields_of(distances):
+    """All arrays of Distances by their names."""
+    return {name: getattr(distances, name) for name in FIELDS}
+
+
+def changed(distances, **arrays):
+    """Distances with some arrays replaced."""
+    return _distance.Distances(**{**fields_of(distances), "names": distances.names, **arrays})
+
+
 def fields(calculator, points, triangles=None):
-    return dict(zip(FIELDS, calculator.compute(points, triangles)))
+    return fields_of(calculator.compute(points, triangles))
 
 
 def unsigned_distances(mesh, points):

@@ -49,6 +49,7 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
 
 def _controller(scenario: Scenario) -> Dict[str, Any]:
     mapping = controller_to_mapping(scenario)
+    mapping["priority"] = list(scenario.controller.priority or scenario.controller.barriers)
     for name in scenario.controller.barriers:
         derive = BARRIERS[name].derive
         mapping[name].update(derive(scenario.object, scenario.agents, scenario.controller))

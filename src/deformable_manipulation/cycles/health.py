@@ -146,7 +146,7 @@ def _judge_decisions(decisions):
 
 def _missed(decisions):
     missed = {
-        name: 1e3 * slack for name in decisions[-1].slack if (slack := _largest(decisions, name))
+        name: 1e3 * slack for name in _barriers(decisions) if (slack := _largest(decisions, name))
     }
     return ", ".join(f"{name} missed by {slack:.2f} mm/s at most" for name, slack in missed.items())
 
@@ -154,7 +154,7 @@ def _missed(decisions):
 def _decision_values(decisions):
     values = {"status": decisions[-1].status.name}
     values["lowest distance [m]"] = _lowest([decision.distance for decision in decisions])
-    for name in decisions[-1].h:
+    for name in _barriers(decisions):
         h = [decision.h.get(name, np.nan) for decision in decisions]
         values[f"lowest h, {name} [m]"] = _lowest(h)
         values[f"largest slack, {name} [m/s]"] = f"{_largest(decisions, name):.6f}"
@@ -164,6 +164,11 @@ def _decision_values(decisions):
     exact = sum(decision.exact_jacobian for decision in decisions)
     values["cycles with exact gradients"] = f"{exact} of {len(decisions)}"
     return values
+
+
+def _barriers(decisions):
+    """Names of all barriers that were in use."""
+    return list(dict.fromkeys(name for decision in decisions for name in decision.slack))
 
 
 def _largest(decisions, name):

@@ -118,13 +118,6 @@ class HalfSpace:
         )
 
 
-def changed(distances, **fields):
-    """Distances with some arrays replaced."""
-    names = ("minimum", "offsets", "distance", "obstacle", "object_point", "obstacle_point")
-    names += ("normal", "vertices", "weights", "obstacle_velocity", "identity", "names")
-    return Distances(**{**{name: getattr(distances, name) for name in names}, **fields})
-
-
 def team(commanded, assistants, agents, formulation, max_velocity=0.15):
     """Who is commanded; agent 0 leads."""
     return _control.Team(

@@ -3,6 +3,7 @@ import dataclasses
 import control_builders as build
 import numpy as np
 import pytest
+from mesh_reference import changed
 
 from deformable_manipulation._control import Differences
 
@@ -52,7 +53,7 @@ def test_gradients_of_all_agents(setting, directions):
 def test_a_feature_between_two_points_takes_its_material_point(setting):
     body, obstacle, positions = setting
     observation = build.observe(0.0, positions, body, obstacle)
-    distances = build.changed(
+    distances = changed(
         observation.distances,
         vertices=np.tile((1, 4, 0), (len(observation.distances.distance), 1)),
         weights=np.tile((0.25, 0.75, 0.0), (len(observation.distances.distance), 1)),

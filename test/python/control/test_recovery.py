@@ -43,7 +43,7 @@ def start(assistants=1, depth=-1.0, duration=6.0, **settings):
 
 def shortfall(run, kind):
     """By how much a limit is missed at each time [m]."""
-    return np.maximum(0.0, -run.all("h_" + kind).min(axis=1))
+    return np.maximum(0.0, -run.h(kind).min(axis=1))
 
 
 def reach(k):
@@ -121,11 +121,11 @@ def pushed(priority):
 def test_limits_that_contradict_yield_in_the_order_of_the_priority(priority):
     run = pushed(priority)
     first, second = sorted(("collision", "overstretch"), key=priority.index)
-    assert run.all("h_" + first).min() > -1e-3
-    assert run.all("h_" + second).min() < -0.02
+    assert run.h(first).min() > -1e-3
+    assert run.h(second).min() < -0.02
     last = run.decisions[-1][0]
     assert last.status == Status.RELAXED
-    assert getattr(last, "slack_" + first) == 0.0 < getattr(last, "slack_" + second)
+    assert last.slack[first] == 0.0 < last.slack[second]
     # It neither stops nor chatters: with the wall, or where the object's reach ends.
     velocity = run.all("command")[-100:, 0, 1]
     np.testing.assert_allclose(velocity, 0.03 if first == "collision" else 0.0, atol=2e-3)

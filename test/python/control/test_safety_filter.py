@@ -229,7 +229,7 @@ def test_collision_outranks_overstretch_outranks_proximity():
 @pytest.mark.parametrize("priority", list(itertools.permutations(PRIORITY)))
 def test_the_priority_is_the_users(priority):
     safety = SafetyFilter(np.ones(3), priority=list(priority))
-    kinds = [LIMITS[PRIORITY.index(name)] for name in priority]
+    kinds = list(priority)
     for high, low in itertools.combinations(kinds, 2):
         parts = [rows(low, [-1.0, 0.0, 0.0], 0.05), rows(high, [1.0, 0.0, 0.0], 0.1)]
         result = safety.filter(np.zeros(3), parts, LOWER, UPPER)
@@ -240,14 +240,14 @@ def test_the_priority_is_the_users(priority):
 @pytest.mark.parametrize(
     "priority",
     [
-        ["collision", "overstretch"],
-        ["collision"] * 3,
-        ["collision", "proximity", "anticipation"],
-        ["collision", "overstretch", "speed"],
+        [0, 2],
+        [0, 0, 0],
+        [0, 1, 3],
+        [0, 1, -1],
     ],
 )
 def test_a_priority_is_an_order_of_the_limits(priority):
-    with pytest.raises(ValueError, match="priority|speed"):
+    with pytest.raises(ValueError, match="priority"):
         SafetyFilter(np.ones(3), priority=priority)
 
 

@@ -3,6 +3,7 @@ import dataclasses
 import control_builders as build
 import numpy as np
 import pytest
+from mesh_reference import changed
 
 from deformable_manipulation._control import Differences, response_features
 from deformable_manipulation.control.controller import AssistantController
@@ -66,9 +67,10 @@ def without_copies(observation):
             "vertices",
             "weights",
             "obstacle_velocity",
+            "identity",
         )
     }
-    distances = dataclasses.replace(
+    distances = changed(
         observation.distances,
         minimum=observation.distances.minimum[:1],
         offsets=observation.distances.offsets[:2],

@@ -98,6 +98,8 @@ def test_in_lock_step_any_rate_is_right(clock):
 
 def decision(status, **fields):
     known = dict(position=np.zeros(3), target=np.zeros(3), error=np.array((0.0, 0.3, 0.4)))
+    barriers = ("collision", "overstretch", "proximity")
+    known["slack"] = {**dict.fromkeys(barriers, 0.0), **fields.pop("slack", {})}
     return Decision(status, status.sentence, True, np.zeros(3), **{**known, **fields})
 
 

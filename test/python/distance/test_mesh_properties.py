@@ -118,7 +118,7 @@ def test_moving_everything_rigidly_changes_no_distance(seed, size):
     plain = compute(mesh, points, triangles, size * BAND)
     rotation, translation = Rotation.random(random_state=seed), size * rng.uniform(-3, 3, 3)
     obstacle = _distance.MeshObstacle(*mesh)
-    calculator = _distance.MinimumDistance([obstacle], 0.0, size * BAND)
+    calculator = _distance.MinimumDistance([obstacle], 0.0, size * BAND, "elements")
     calculator.compute(points[None], triangles)
     linear, angular = rng.uniform(-1.0, 1.0, (2, 3))
     obstacle.set_pose(translation, rotation.as_quat(), linear, angular)

@@ -6,6 +6,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mesh_reference import fields
 from planar_reference import SQUARE
 from scipy.spatial.transform import Rotation
 
@@ -28,11 +29,13 @@ def test_thousands_of_corners(seed):
     rng = np.random.default_rng(seed)
     ring = coast(rng)
     polygon = shapely.Polygon(ring)
-    calculator = _distance.MinimumDistance([_distance.PlanarObstacle(ring, "xy")], 0.0)
+    calculator = _distance.MinimumDistance(
+        [_distance.PlanarObstacle(ring, "xy")], 0.0, band=0.1, features="elements"
+    )
     for _ in range(5):
         steps = rng.uniform(0.01, 0.2) * rng.standard_normal((20, 2))
         line = rng.uniform(-1.5, 1.5, 2) + steps.cumsum(axis=0)
-        minimum = calculator.compute(np.column_stack((line, 0.0 * line[:, 0]))[None])[0][0]
+        minimum = calculator.compute(np.column_stack((line, 0.0 * line[:, 0]))[None]).minimum[0]
         shape = shapely.LineString(line)
         if polygon.intersects(shape):
             low, high = reference.bounds_of_minimum(ring, line, 201)
@@ -46,18 +49,20 @@ def test_thousands_of_corners(seed):
 def test_a_moved_obstacle_is_as_a_new_one_there(seed, plane):
     rng = np.random.default_rng(seed)
     obstacle = _distance.PlanarObstacle(SQUARE, plane)
-    moved = _distance.MinimumDistance([obstacle], 0.01)
+    moved = _distance.MinimumDistance([obstacle], 0.01, band=0.1, features="elements")
     points = rng.uniform(-1.0, 1.0, (3, 6, 3))
     moved.compute(points)
     translation, rotation = rng.uniform(-1.0, 1.0, 3), Rotation.random(random_state=seed).as_quat()
     linear, angular = rng.uniform(-1.0, 1.0, (2, 3))
     obstacle.set_pose(translation, rotation, linear, angular)
     there = _distance.PlanarObstacle(SQUARE, plane, translation, rotation)
-    result, fresh = moved.compute(points), _distance.MinimumDistance([there], 0.01).compute(points)
-    for field, expected in zip(result[:9] + result[10:], fresh[:9] + fresh[10:]):
-        assert (field == expected).all()
-    assert result[9] == pytest.approx(linear + np.cross(angular, result[5] - translation))
-    assert (fresh[9] == 0.0).all()
+    new = _distance.MinimumDistance([there], 0.01, band=0.1, features="elements")
+    result, fresh = fields(moved, points), fields(new, points)
+    arm = result["obstacle_point"] - translation
+    assert result.pop("obstacle_velocity") == pytest.approx(linear + np.cross(angular, arm))
+    assert (fresh.pop("obstacle_velocity") == 0.0).all()
+    for name, expected in fresh.items():
+        assert (result[name] == expected).all()
 
 
 def test_all_mistakes_at_once():
@@ -89,8 +94,8 @@ def test_a_pose_that_is_none_leaves_the_obstacle_where_it_was():
     with pytest.raises(ValueError, match="translation.*\nrotation"):
         obstacle.set_pose((np.nan, 0, 0), (0, 0, 0, 0))
     line = np.array([[(0.5, 1.5, 0.0), (0.5, 1.2, 0.0)]])
-    minimum = _distance.MinimumDistance([obstacle], 0.0).compute(line)[0]
-    assert minimum == pytest.approx([0.2], abs=1e-12)
+    calculator = _distance.MinimumDistance([obstacle], 0.0, band=0.1, features="elements")
+    assert calculator.compute(line).minimum == pytest.approx([0.2], abs=1e-12)
 
 
 def test_far_from_the_origin():
@@ -102,5 +107,5 @@ def test_far_from_the_origin():
         )
         line = np.array([(0.3, 1.4), (0.6, 1.25), (0.9, 1.7)]) + far
         result = calculator.compute(np.column_stack((line, np.zeros(3)))[None])
-        assert result[0] == pytest.approx([0.25], abs=1e-9)
-        assert result[1].tolist() == [0, len(result[2])] and len(result[2]) >= 1
+        assert result.minimum == pytest.approx([0.25], abs=1e-9)
+        assert result.offsets.tolist() == [0, len(result.distance)] and len(result.distance) >= 1

@@ -6,6 +6,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mesh_reference import fields
 from planar_reference import COMB, HILLS, SQUARE, star
 
 from deformable_manipulation import _distance
@@ -21,11 +22,7 @@ def surface_distances(ring, points, triangles, features="elements", band=0.2):
         [_distance.PlanarObstacle(ring, "xy")], 0.0, band, features
     )
     lifted = np.column_stack((points, np.linspace(-1.0, 1.0, len(points))))
-    names = (
-        "minimum offsets distance obstacle object_point obstacle_point normal vertices weights"
-        " obstacle_velocity identity"
-    ).split()
-    return dict(zip(names, calculator.compute(lifted[None], triangles)))
+    return fields(calculator, lifted[None], triangles)
 
 
 def deepest(ring, corners, accuracy=1e-5):

@@ -20,9 +20,11 @@ def make_run(distance=None, offset=OFFSET, **changes):
     velocity[:, 1] = np.sin(time)
     values = {
         "error_norm": np.linspace(0.0, 0.3, len(time)),
-        "h_collision": distance - OFFSET,
-        "h_overstretch": np.full(len(time), 0.4),
-        "h_proximity": np.full(len(time), 0.8),
+        "h": {
+            "collision": distance - OFFSET,
+            "overstretch": np.full(len(time), 0.4),
+            "proximity": np.full(len(time), 0.8),
+        },
         "nominal_velocity": velocity,
         "command": 0.5 * velocity,
         "target": velocity,
@@ -97,7 +99,7 @@ def test_violations_are_marked_at_their_worst():
     distance[40:45] = [0.049, 0.04, 0.031, 0.04, 0.049]
     overstretch = np.full(100, 0.4)
     overstretch[70] = -0.002
-    figure = plot(make_run(distance, h_overstretch=overstretch))
+    figure = plot(make_run(distance, h={"overstretch": overstretch}))
     (mark,) = violation_marks(figure.axes[0])
     assert mark.get_xydata().tolist() == [[TIME[42], 0.031]]
     (mark,) = violation_marks(figure.axes[2])
@@ -159,8 +161,7 @@ def test_unknown_numbers_leave_gaps(tmp_path):
     run = make_run(
         distance=np.where(TIME < 2, np.nan, 0.04),
         error_norm=np.where(TIME < 2, np.nan, 0.1),
-        h_overstretch=np.full(100, np.nan),
-        h_proximity=np.where(TIME < 2, np.nan, 0.1),
+        h={"overstretch": np.full(100, np.nan), "proximity": np.where(TIME < 2, np.nan, 0.1)},
         nominal_velocity=np.full((100, 3), np.nan),
     )
     figure = plot(run)

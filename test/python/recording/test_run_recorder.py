@@ -176,7 +176,6 @@ def test_summary_numbers(scenario, tmp_path):
         "wall_time": 12.5,
         "min_distance": 0.031,
         "offset": OFFSET,
-        "min_proximity_margin": 0.5,
         "max_stretch": 0.02,
         "valid_stretch": 0.01,
         "shape_valid": False,

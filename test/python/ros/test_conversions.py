@@ -1,12 +1,12 @@
 """Messages, as a node receives them, and the core's arrays."""
 
-import dataclasses
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 from geometry_msgs.msg import TwistStamped
+from mesh_reference import changed, fields_of
 from messages import distances_message, state_message, transmitted
 
 from deformable_manipulation.control.observation import find_fault
@@ -112,11 +112,9 @@ def test_a_state_s_age_tells_by_how_many_cycles_its_answer_is_late(
 
 def test_distances_arrive_as_they_were_computed(distances, computed):
     received = conversions.to_distances(transmitted(distances))
-    for name in vars(computed):
-        if name != "names":
-            expected = getattr(computed, name)
-            np.testing.assert_array_equal(getattr(received, name), expected, err_msg=name)
-            assert getattr(received, name).shape == expected.shape, name
+    for name, expected in fields_of(computed).items():
+        np.testing.assert_array_equal(getattr(received, name), expected, err_msg=name)
+        assert getattr(received, name).shape == expected.shape, name
     assert received.names == computed.names == ("ground",)
 
 
@@ -189,7 +187,7 @@ def test_distances_that_do_not_fit_are_refused_by_name(distances, field):
 
 def test_the_velocities_of_obstacles_are_sent_where_one_moves(state, computed):
     velocity = np.arange(3.0 * len(computed.distance)).reshape(-1, 3)
-    moved = dataclasses.replace(computed, obstacle_velocity=velocity)
+    moved = changed(computed, obstacle_velocity=velocity)
     pose = np.arange(7.0)[None]
     message = conversions.fill_distances(distances_message(), state, moved, 0.0, ["ground"], pose)
     received = transmitted(message)

@@ -184,7 +184,7 @@ def test_the_command_records_what_the_loop_does(recorded, safe):
     assert (summary["scenario"], summary["cycles"]) == ("short_rope", len(safe))
     assert summary["min_distance"] == pytest.approx(lowest_distance(safe), abs=1e-12)
     assert summary["worst_violation"] <= TOLERATED
-    assert summary["min_stretch_margin"] > 0.0 and summary["min_proximity_margin"] > 0.0
+    assert summary["min_margin"]["overstretch"] > 0.0 and summary["min_margin"]["proximity"] > 0.0
     assert summary["qp_failed"] == summary["qp_relaxed"] == 0
     assert set(summary["tracking_error"]) == {"assistant_1"}
     error = safe[-1].decisions["assistant_1"].error_norm

@@ -40,15 +40,15 @@ def summary(folder):
 def test_no_limit_is_violated(summary):
     assert summary["completed"] and summary["shape_valid"]
     assert summary["min_distance"] >= summary["offset"] - SHORTFALL
-    assert summary["min_stretch_margin"] >= -SHORTFALL
-    assert summary["min_proximity_margin"] >= -SHORTFALL
+    assert summary["min_margin"]["overstretch"] >= -SHORTFALL
+    assert summary["min_margin"]["proximity"] >= -SHORTFALL
     assert summary["qp_failed"] == 0
 
 
 def test_both_limits_are_met(summary):
     """The fabric comes as near as it may, and is drawn as taut as it may be for that."""
     assert summary["min_distance"] < summary["offset"] + 0.005
-    assert summary["min_stretch_margin"] < 0.01
+    assert summary["min_margin"]["overstretch"] < 0.01
     errors = summary["tracking_error"].values()
     assert max(error["max"] for error in errors) > 0.1
 

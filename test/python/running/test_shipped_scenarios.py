@@ -42,8 +42,8 @@ def summary(name, folder):
 def test_no_limit_is_violated(summary):
     assert summary["completed"] and summary["safety"]
     assert summary["min_distance"] >= summary["offset"] - SHORTFALL
-    assert summary["min_stretch_margin"] >= -SHORTFALL
-    assert summary["min_proximity_margin"] >= -SHORTFALL
+    assert summary["min_margin"]["overstretch"] >= -SHORTFALL
+    assert summary["min_margin"]["proximity"] >= -SHORTFALL
     assert summary["qp_relaxed"] == summary["qp_failed"] == 0
 
 

@@ -26,7 +26,9 @@ def write_scenario(path, mapping):
 def test_absent_keys_take_the_defaults_of_the_spec(mapping, tmp_path):
     mapping["controller"] = {"collision": {"offset": 0.1}}
     scenario = scenario_from_mapping(mapping, tmp_path)
-    assert scenario.controller == ControllerSpec(collision=CollisionSpec(offset=0.1))
+    priority = ("collision", "overstretch", "proximity")
+    wanted = ControllerSpec(collision=CollisionSpec(offset=0.1), priority=priority)
+    assert scenario.controller == wanted
     assert scenario.frame == "map"
 
 

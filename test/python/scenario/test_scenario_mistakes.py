@@ -60,7 +60,8 @@ WRONG_VALUES = [
     ("controller.feedforward", 1, "true or false"),
     ("controller.solver", "quadprg", "did you mean 'quadprog'?"),
     ("controller.formulation", "papers", "did you mean 'paper'?"),
-    ("controller.priority", ["collision", "proximity"], "a list [yields last"),
+    ("controller.priority", ["collision", "proximity"], "each barrier in use once"),
+    ("controller.priority", "collision", "a list of the names"),
     ("controller.priority", ["collision", "collision", "proximity"], "name each of"),
     ("controller.collision.margin", -0.1, "a number >= 0"),
     ("controller.collision.speed_margin", 11, "a number >= 0 and <= 10 [s]"),
@@ -183,7 +184,7 @@ def test_obstacle_names_are_unique(mapping, problems_of):
 
 
 def test_no_mapping_at_all(problems_of):
-    assert "a section with keys name, frame, object" in problems_of([1, 2])[""]
+    assert "a section with keys name, object, agents" in problems_of([1, 2])[""]
 
 
 TEXT = """\
