@@ -6,6 +6,7 @@ from typing import Any, Tuple
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
     LARGEST_COORDINATE,
     Array,
@@ -23,12 +24,30 @@ _LARGEST_INDEX = 2**31 - 1
 _FILE = "the name of a mesh file (OBJ, PLY, STL and others)"
 
 
+class _List:
+    """A list of one item or more, all read by one reader."""
+
+    type, unit, range = "list", "", "one or more"
+
+    def __init__(self, item, things: str):
+        self._item = item
+        self.allowed = "a list of {}, each {}".format(things, item.allowed)
+
+    def __call__(self, node: Node) -> Tuple[Any, ...]:
+        if not isinstance(node.value, (list, tuple)) or not node.value:
+            node.fail("must be {}".format(self.allowed))
+        return read_items(node, self._item)
+
+
 @dataclasses.dataclass(frozen=True)
 class Mesh:
     """Vertices [m, or units of a file] and the triangles between them."""
 
-    vertices: Tuple[Vector, ...]
-    triangles: Tuple[Tuple[int, int, int], ...]
+    vertices: Tuple[Vector, ...] = parameter(_List(position(), "vertices"), "Vertices.")
+    triangles: Tuple[Tuple[int, int, int], ...] = parameter(
+        _List(Array(3, Integer(0, _LARGEST_INDEX), "[i, j, k]"), "triangles of vertices from 0"),
+        "Vertices of each triangle.",
+    )
 
 
 class Scale:
@@ -121,25 +140,4 @@ def _tuples(array) -> Tuple[Tuple[Any, ...], ...]:
     return tuple(tuple(row) for row in array.tolist())
 
 
-class _List:
-    """A list of one item or more, all read by one reader."""
-
-    def __init__(self, item, things: str):
-        self._item = item
-        self.allowed = "a list of {}, each {}".format(things, item.allowed)
-
-    def __call__(self, node: Node) -> Tuple[Any, ...]:
-        if not isinstance(node.value, (list, tuple)) or not node.value:
-            node.fail("must be {}".format(self.allowed))
-        return read_items(node, self._item)
-
-
-_INLINE = Section(
-    Mesh,
-    {
-        "vertices": _List(position(), "vertices"),
-        "triangles": _List(
-            Array(3, Integer(0, _LARGEST_INDEX), "[i, j, k]"), "triangles of vertices from 0"
-        ),
-    },
-)
+_INLINE = Section(Mesh)

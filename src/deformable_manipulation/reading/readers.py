@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from deformable_manipulation.reading.errors import Problem, key_text, show
-from deformable_manipulation.reading.parameter import declared
+from deformable_manipulation.reading.parameter import Parameter, declared
 
 LARGEST_COORDINATE = 1e6  # m; beyond it distances lose the precision that safety needs
 _UNIT_NORM = 1e-12  # quaternions this near to unit norm stay as they are, so that reading is stable
@@ -310,9 +310,9 @@ class Section:
     Args:
         spec: dataclass whose fields are declared by :func:`~.parameter.parameter`; its defaults
             are those of the keys that may be absent.
-        fields: reader of each key that is not declared.
-        defaults: defaults that differ from those of ``spec``: of what is filled in later.
-        others: further keys that belong here and are read elsewhere.
+        defaults: defaults that differ from the declared ones: of what is filled in later.
+        also: another dataclass of declared keys that are read here, too, and not of ``spec``.
+        others: declarations of further keys that belong here and are read elsewhere.
     """
 
     type, unit, range = "section", "", ""
@@ -321,18 +321,19 @@ class Section:
     def __init__(
         self,
         spec,
-        fields: Optional[Mapping[str, Callable[[Node], Any]]] = None,
         defaults: Optional[Mapping[str, Any]] = None,
-        others: Sequence[str] = (),
+        also: Optional[type] = None,
+        others: Optional[Mapping[str, Parameter]] = None,
     ):
-        declarations = declared(spec)
+        more = {} if also is None else declared(also)
+        self.declarations = {**more, **declared(spec)}
         self.spec = spec
-        self.fields = {key: each.reader for key, (_, each) in declarations.items()}
-        self.fields.update(fields or {})
-        self._attributes = {key: attribute for key, (attribute, _) in declarations.items()}
-        self.others = tuple(others)
-        self._known = self.others + tuple(self.fields)
-        self.defaults = dict(_spec_defaults(spec), **(defaults or {}))
+        self.fields = {key: each.reader for key, (_, each) in self.declarations.items()}
+        self._attributes = {key: attribute for key, (attribute, _) in self.declarations.items()}
+        self.others = dict(others or {})
+        self._known = (*self.others, *self.fields)
+        shared = {} if also is None else _spec_defaults(also)
+        self.defaults = {**shared, **_spec_defaults(spec), **(defaults or {})}
         self.allowed = "a section with keys {}".format(", ".join(self._known))
 
     def __call__(self, node: Node):

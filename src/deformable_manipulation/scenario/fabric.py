@@ -1,12 +1,15 @@
 """The ``object`` section of a fabric, and where its particles are before it is deformed."""
 
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.meshes import InlineMesh, Mesh, Scale, scaled
+from deformable_manipulation.reading.parameter import declared, parameter
+from deformable_manipulation.reading.pose import POSE, Pose
 from deformable_manipulation.reading.readers import (
     Array,
     Node,
@@ -15,27 +18,92 @@ from deformable_manipulation.reading.readers import (
     Unreadable,
 )
 from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
-from deformable_manipulation.scenario.object_specs import FabricSpec
-from deformable_manipulation.scenario.rod import DAMPING, POSE
+from deformable_manipulation.scenario.rod import DAMPING, kind_keys
 
+
+@dataclass(frozen=True)
+class FabricSpec:
+    """A fabric: a triangle mesh with mass, membrane and bending stiffness.
+
+    Particle i is vertex i of the mesh. Undeformed, a vertex v lies at
+    ``pose.position + pose.orientation * v``.
+    """
+
+    vertices: Tuple[Vector, ...]  # m
+    triangles: Tuple[Tuple[int, int, int], ...]  # indices of vertices
+    density: float = parameter(
+        Number("kg/m^2", above=0.0, at_most=1e4), "Mass per area.", native=True
+    )
+    thickness: float = parameter(
+        Number("m", above=0.0, at_most=1.0),
+        "For distances, which are measured from the surface: half of it lies on either side of the "
+        "mesh.",
+        native=True,
+    )
+    stretching_compliance: float = parameter(
+        Number("m/N", at_least=0.0, at_most=1e6),
+        "1 / (Young's modulus x thickness). 0 makes the fabric inextensible.",
+        native=True,
+    )
+    bending_compliance: float = parameter(
+        Number("1/(N m)", at_least=0.0, at_most=1e12), "1 / flexural rigidity.", native=True
+    )
+    damping: float = parameter(
+        DAMPING, "Decay rate of motion relative to the held points.", default=10.0, native=True
+    )
+    pose: Pose = parameter(
+        POSE,
+        "Pose of the undeformed object.",
+        default=Pose(),
+        default_text="at the origin, in the xy plane",
+        native=True,
+    )
+
+    type = "fabric"
+
+    @property
+    def particles(self) -> int:
+        """Number of particles that can be held (the vertices)."""
+        return len(self.vertices)
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the mid-surface."""
+        return 0.5 * self.thickness
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """Keys that give the mesh."""
+
+    size: Optional[Tuple[float, float]] = parameter(
+        Array(2, Number("m", above=0.0, at_most=1e3), "[along x, along y]"),
+        "Of a rectangle, along the x and y axes of `pose` from its origin.",
+        default=None,
+        default_text="none",
+        allowed="a whole number of cells",
+    )
+    resolution: Optional[float] = parameter(
+        Number("1/m", above=0.0, at_most=1e6),
+        "Cells per metre. More cells give finer folds and cost more time.",
+        default=None,
+        default_text="none",
+        allowed="at most 20000 particles",
+    )
+    mesh: Optional[Mesh] = parameter(
+        InlineMesh(), "Any other shape.", default=None, default_text="none", allowed="see below"
+    )
+    scale: Vector = parameter(
+        Scale(), "Metres per unit of the file, along its axes.", default=(1.0, 1.0, 1.0)
+    )
+
+
+_SHAPE = tuple(declared(_Shape))
 FABRIC = Section(
     FabricSpec,
-    {
-        "size": Array(2, Number("m", above=0.0, at_most=1e3), "[along x, along y]"),
-        "resolution": Number("1/m", above=0.0, at_most=1e6),
-        "mesh": InlineMesh(),
-        "scale": Scale(),
-        "density": Number("kg/m^2", above=0.0, at_most=1e4),
-        "thickness": Number("m", above=0.0, at_most=1.0),
-        "stretching_compliance": Number("m/N", at_least=0.0, at_most=1e6),
-        "bending_compliance": Number("1/(N m)", at_least=0.0, at_most=1e12),
-        "damping": DAMPING,
-        "pose": POSE,
-    },
-    defaults={"size": None, "resolution": None, "mesh": None, "scale": (1.0, 1.0, 1.0)},
-    others=("type", "material"),
+    also=_Shape,
+    others=kind_keys("fabric", "`density`, `thickness` and both compliances"),
 )
-_SHAPE = ("size", "resolution", "mesh", "scale")
 
 
 def read_fabric(node: Node) -> FabricSpec:

@@ -2,12 +2,12 @@
 
 import re
 from dataclasses import dataclass
-from typing import Tuple, Union
+from typing import Dict, Tuple, Union
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.names import FRAME
-from deformable_manipulation.reading.parameter import declared, parameter
+from deformable_manipulation.reading.parameter import Parameter, parameter
 from deformable_manipulation.reading.readers import (
     Node,
     Report,
@@ -105,14 +105,15 @@ class MotionReader:
 
     type, unit, range = "section", "", ""
     declarations = {
-        key: declaration
-        for section in _KINDS.values()
-        for key, (_, declaration) in declared(section.spec).items()
+        key: each for section in _KINDS.values() for key, each in section.declarations.items()
     }
     fields = {key: section.fields[key] for key, section in _KINDS.items()}
-    defaults = {}
-    others = ()
+    others: Dict[str, Parameter] = {}
     allowed = "a section with one of the keys {}".format(", ".join(_KINDS))
+
+    def spec_default(self, attribute: str):
+        """See :meth:`~.readers.Section.spec_default`."""
+        return Section.REQUIRED
 
     def __call__(self, node: Node) -> Motion:
         given = [key for key in _KINDS if isinstance(node.value, dict) and key in node.value]

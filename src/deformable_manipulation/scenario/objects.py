@@ -9,13 +9,14 @@ from functools import singledispatch
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.readers import Choice, Node, Unreadable
 from deformable_manipulation.scenario.fabric import (
+    FabricSpec,
     fabric_free_length,
     fabric_particle_position,
     read_fabric,
 )
 from deformable_manipulation.scenario.materials import read_with_material
-from deformable_manipulation.scenario.object_specs import FabricSpec, RodSpec
 from deformable_manipulation.scenario.rod import (
+    RodSpec,
     read_rod,
     rod_free_length,
     rod_particle_position,

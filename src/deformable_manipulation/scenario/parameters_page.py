@@ -8,16 +8,18 @@ import re
 import sys
 from typing import Any, Dict, List, Sequence, Tuple
 
-from deformable_manipulation.reading.parameter import Parameter, declared
+from deformable_manipulation.reading.parameter import Parameter
 from deformable_manipulation.reading.pose import POSE
 from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.fabric import FABRIC
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
+from deformable_manipulation.scenario.rod import ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 from deformable_manipulation.system.package_files import package_share_directory
@@ -43,6 +45,8 @@ def sections() -> Dict[str, Any]:
     """Every section with a heading of its own, by that heading."""
     return {
         "Top level": SCENARIO,
+        "object: rod": ROD,
+        "object: fabric": FABRIC,
         "object.pose": POSE,
         "agents": AGENT,
         "obstacles: polygon": POLYGON_OBSTACLE,
@@ -101,12 +105,11 @@ def _table(section) -> List[str]:
 
 def _rows(section) -> List[Tuple[str, Parameter, Any]]:
     """Key, declaration and default of each parameter."""
-    if hasattr(section, "declarations"):
-        return [(key, each, None) for key, each in section.declarations.items()]
-    rows = []
-    for key, (attribute, declaration) in declared(section.spec).items():
-        rows.append((key, declaration, section.spec_default(attribute)))
-    return rows
+    others = [(key, each, Section.REQUIRED) for key, each in section.others.items()]
+    return others + [
+        (key, declaration, section.spec_default(attribute))
+        for key, (attribute, declaration) in section.declarations.items()
+    ]
 
 
 def _row(key: str, declaration: Parameter, default: Any) -> str:

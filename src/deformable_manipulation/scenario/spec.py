@@ -23,6 +23,7 @@ from deformable_manipulation.scenario.controller import (
     DECENTRALISED,
     ControllerSpec,
 )
+from deformable_manipulation.scenario.fabric import FabricSpec
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, KnowledgeSpec
 from deformable_manipulation.scenario.motions import (
@@ -32,7 +33,6 @@ from deformable_manipulation.scenario.motions import (
     PoseWaypoint,
     TopicMotion,
 )
-from deformable_manipulation.scenario.object_specs import FabricSpec, RodSpec
 from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import (
     MeshObstacle,
@@ -40,6 +40,7 @@ from deformable_manipulation.scenario.obstacles import (
     PolygonObstacle,
     read_obstacles,
 )
+from deformable_manipulation.scenario.rod import RodSpec
 from deformable_manipulation.scenario.simulation import SIMULATION, SimulationSpec
 from deformable_manipulation.scenario.waypoints import (
     LEADER_PATH,

@@ -1,84 +1,64 @@
-"""docs/parameters.md names every key, with the default the code has."""
+"""docs/parameters.md has a table for every section, made of the declared parameters."""
 
 import dataclasses
-import re
 
 import pytest
-import yaml
 
-from deformable_manipulation.scenario import package_share_directory
-from deformable_manipulation.scenario.agents import AGENT
-from deformable_manipulation.scenario.controller import (
-    COLLISION,
-    CONTROLLER,
-    OVERSTRETCH,
-    PROXIMITY,
-)
-from deformable_manipulation.scenario.fabric import FABRIC
-from deformable_manipulation.scenario.knowledge import KNOWLEDGE
-from deformable_manipulation.scenario.loader import SCENARIO
-from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
-from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
-from deformable_manipulation.scenario.rod import POSE, ROD
-from deformable_manipulation.scenario.simulation import SIMULATION
-from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
-
-SECTIONS = {
-    "Top level": SCENARIO,
-    "object: rod": ROD,
-    "object: fabric": FABRIC,
-    "object.pose": POSE,
-    "agents": AGENT,
-    "obstacles: polygon": POLYGON_OBSTACLE,
-    "obstacles: mesh": MESH_OBSTACLE,
-    "obstacles: motion": MOTION,
-    "obstacles: motion.waypoints": POSE_WAYPOINT,
-    "leader": LEADER_PATH,
-    "leader.waypoints": WAYPOINT,
-    "leader.workspace": WORKSPACE,
-    "controller": CONTROLLER,
-    "controller.collision": COLLISION,
-    "controller.overstretch": OVERSTRETCH,
-    "controller.proximity": PROXIMITY,
-    "simulation": SIMULATION,
-    "knowledge": KNOWLEDGE,
-}
+from deformable_manipulation.reading.parameter import declared, declared_below
+from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.controller import live_parameters
+from deformable_manipulation.scenario.parameters_page import main, sections, updated
+from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.package_files import package_share_directory
 
 
 @pytest.fixture(scope="module")
-def tables():
-    """Rows of the page: heading -> key -> cells (key, type, unit, default, allowed, meaning)."""
-    text = (package_share_directory() / "docs" / "parameters.md").read_text(encoding="utf-8")
-    found = {}
-    for part in re.split(r"^#+ ", text, flags=re.MULTILINE)[1:]:
-        heading, _, body = part.partition("\n")
-        rows = [line.strip("|").split("|") for line in body.splitlines() if line[:3] == "| `"]
-        cells = [[cell.strip() for cell in row] for row in rows]
-        found[heading.strip()] = {row[0].strip("`"): row for row in cells}
-    return found
+def page():
+    return (package_share_directory() / "docs" / "parameters.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("heading", SECTIONS)
-def test_every_key_is_there_and_no_other(tables, heading):
-    section = SECTIONS[heading]
-    assert set(tables[heading]) == set(section.fields) | set(section.others)
+def test_the_page_is_up_to_date(page):
+    assert updated(page) == page, "run scripts/parameters_page"
+    assert main(["--check"]) == 0
 
 
-@pytest.mark.parametrize("heading", SECTIONS)
-def test_every_plain_default_is_the_code_s(tables, heading):
-    section = SECTIONS[heading]
-    for key in section.fields:
-        default = section.defaults.get(key, dataclasses.MISSING)
-        cell = tables[heading][key][3]
-        if default is dataclasses.MISSING:
-            assert not cell.startswith("`"), (key, cell)
-        elif isinstance(default, (bool, int, float, str, tuple)) and default != ():
-            plain = list(default) if isinstance(default, tuple) else default
-            assert yaml.safe_load(cell.strip("`")) == plain, key
+def test_a_changed_declaration_shows(page):
+    assert updated(page.replace("k_p: how fast", "k_p: how slowly")) == page
+    assert updated(page.replace("Keeps the agents apart.", "")) == page
 
 
-@pytest.mark.parametrize("heading", SECTIONS)
-def test_every_unit_is_the_one_in_the_messages(tables, heading):
-    for key, reader in SECTIONS[heading].fields.items():
-        for unit in re.findall(r" \[([^\], ]+)\]", reader.allowed):
-            assert tables[heading][key][2] == unit, key
+def test_every_barrier_has_its_section_and_its_page(page):
+    for name, kind in BARRIERS.items():
+        assert f"### controller.{name}\n\n{kind.meaning}" in page
+
+
+@pytest.mark.parametrize("lost", ["### leader.workspace", "<!-- barriers: made by"])
+def test_a_section_without_a_place_is_told(page, lost):
+    with pytest.raises(ValueError, match="leader.workspace|barriers"):
+        updated(page.replace(lost, "### elsewhere"))
+
+
+def test_every_section_of_the_scenario_is_on_the_page():
+    """Those that are read below the top level, by their specs."""
+    shown = {getattr(section, "spec", None) for section in sections().values()}
+    shown |= {kind.spec for kind in BARRIERS.values()}
+    for path, declaration in declared_below(Scenario):
+        below = getattr(declaration.reader, "spec", None)
+        assert below is None or below in shown, path
+
+
+def test_every_key_is_declared_with_a_meaning():
+    specs = [section.spec for section in sections().values() if hasattr(section, "spec")]
+    for spec in [*specs, *(kind.spec for kind in BARRIERS.values())]:
+        declarations = {attribute for attribute, _ in declared(spec).values()}
+        undeclared = {field.name for field in dataclasses.fields(spec)} - declarations
+        assert undeclared <= {"name", "vertices", "triangles"}, (spec, undeclared)
+        for key, (_, declaration) in declared(spec).items():
+            assert declaration.meaning.endswith("."), (spec, key)
+
+
+def test_live_names_are_unique_and_ranges_hold_the_defaults():
+    names = [name for _, declaration in live_parameters() for name in declaration.live.names]
+    assert len(names) == len(set(names))
+    for path, declaration in live_parameters():
+        assert declaration.live.least < declaration.live.most, path
