@@ -3,6 +3,7 @@
 
 #include <ros/ros.h>
 
+#include "../src/ros/object_kinds.h"
 #include "../src/ros/scenario_reader.h"
 #include "../src/ros/visualization.h"
 #include "deformable_manipulation/pbd/errors.h"
@@ -15,7 +16,7 @@ constexpr double kRedrawPeriod = 0.1;  // s, for viewers that come late
 constexpr int kEveryState = 0;         // the queue has no end: trails are of all states
 
 void draw(ros::NodeHandle& node, const dm::SimulatorScenario& scenario) {
-  dm::Visualization visualization(node, dm::shapeOf(scenario.object), scenario.leader(), "");
+  dm::Visualization visualization(node, dm::makeDrawing(scenario.object), scenario.leader(), "");
   dm::ObjectState::ConstPtr newest;
   const auto subscriber = node.subscribe<dm::ObjectState>("state", kEveryState, [&](const auto& state) {
     newest = state;

@@ -7,6 +7,24 @@
 namespace deformable_manipulation {
 namespace pbd {
 
+FabricParameters FabricParameters::read(const ParameterSection& object, const ParameterSection& simulation) {
+  FabricParameters p;
+  const ParameterSection mesh = object.section("mesh");
+  p.vertices = mesh.vectors("vertices");
+  for (const Vector3& triangle : mesh.vectors("triangles")) {
+    p.triangles.push_back(
+        {static_cast<int>(triangle[0]), static_cast<int>(triangle[1]), static_cast<int>(triangle[2])});
+  }
+  p.density = object.number("density");
+  p.thickness = object.number("thickness");
+  p.stretching_compliance = object.number("stretching_compliance");
+  p.bending_compliance = object.number("bending_compliance");
+  p.damping = object.number("damping");
+  p.pose = object.section("pose").pose("position", "orientation");
+  p.gravity = simulation.vector<3>("gravity");
+  return p;
+}
+
 void FabricParameters::check(ParameterCheck& check) const {
   checkMesh(vertices, triangles, check);
   check.positive("density", density, "[kg/m^2]");

@@ -10,6 +10,23 @@ double area(double radius) { return M_PI * radius * radius; }
 
 }  // namespace
 
+RodParameters RodParameters::read(const ParameterSection& object, const ParameterSection& simulation) {
+  RodParameters p;
+  p.length = object.number("length");
+  p.radius = object.number("radius");
+  p.density = object.number("density");
+  p.segments = object.integer("segments");
+  p.young_modulus = object.number("young_modulus");
+  p.torsion_modulus = object.number("torsion_modulus");
+  p.stretch = object.choice<Stretch>("stretch", {{"zero", Stretch::ZERO}, {"from_moduli", Stretch::FROM_MODULI}});
+  p.damping = object.number("damping");
+  p.pose = object.section("pose").pose("position", "orientation");
+  p.gravity = simulation.vector<3>("gravity");
+  p.solver = simulation.choice<RodSolver>("solver",
+                                          {{"direct", RodSolver::DIRECT}, {"gauss_seidel", RodSolver::GAUSS_SEIDEL}});
+  return p;
+}
+
 void RodParameters::check(ParameterCheck& check) const {
   check.positive("length", length, "[m]");
   check.positive("radius", radius, "[m]");

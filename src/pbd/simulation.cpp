@@ -12,6 +12,9 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
+constexpr double kRestSpeed = 1e-4;   // m/s, of the fastest particle of a settled object
+constexpr double kSettleTime = 60.0;  // s, simulated, after which settling is given up
+
 // An object that did not settle because it swings is a start; one that has come apart is none.
 constexpr double kLargestStretch = 0.05;
 
@@ -74,12 +77,7 @@ Simulation::Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents,
   start_states_ = states_;
 }
 
-void Simulation::settle() {
-  SettleOptions options;
-  options.time_step = clock_.time_step;
-  options.substeps = clock_.substeps;
-  settled_ = body_->settle(options);
-}
+void Simulation::settle() { settled_ = body_->settle({clock_.time_step, clock_.substeps, kRestSpeed, kSettleTime}); }
 
 void Simulation::setCommand(int agent, const Twist& twist) {
   if (!twist.linear.allFinite() || !twist.angular.allFinite()) {

@@ -1,6 +1,8 @@
 // Arguments and results that all bodies share, and the body itself.
 
 #include "bindings.h"
+#include "deformable_manipulation/pbd/object_kinds.h"
+#include "parameter_value_from_python.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -50,11 +52,19 @@ std::vector<MaterialParameter> toParameters(const std::map<std::string, double>&
   return converted;
 }
 
+std::unique_ptr<Body> makeBodyOf(const py::dict& object, const py::dict& simulation) {
+  const ParameterValue object_value = toParameterValue(object);
+  const ParameterValue simulation_value = toParameterValue(simulation);
+  ParameterCheck check;
+  return makeBody({object_value, "object", check}, {simulation_value, "simulation", check});
+}
+
 void bindBody(py::module_& module) {
   py::class_<Body>(module, "Body",
                    "A deformable object and its perturbed copies, advanced together by position-based dynamics.\n\n"
                    "C copies (copy 0 is the object itself), N particles, P geometry points. SI units, fixed frame,\n"
                    "quaternions x, y, z, w.")
+      .def_property_readonly("kind", &Body::kind, "The word that says its kind in the scenario: 'rod' or 'fabric'.")
       .def("clone", &Body::clone, "An independent body in the same state.")
       .def_property_readonly("particle_count", &Body::particleCount, "N, particles that can be held.")
       .def_property_readonly("point_count", &Body::pointCount, "P, geometry points per copy.")
@@ -150,6 +160,14 @@ void bindBody(py::module_& module) {
       .def(
           "wrench", [](const Body& body, int particle) { return toPair(body.wrench(particle)); }, py::arg("particle"),
           "Force (3,) [N] and torque (3,) [N m] about the held point that the object exerts on its agent.");
+  module.def("make_body", &makeBodyOf, py::arg("object"), py::arg("simulation"),
+             "The object that the sections `object` and `simulation` of a resolved scenario (dicts) describe. Raises\n"
+             "ParameterError.");
+  std::vector<std::string> kinds;
+  for (const auto& maker : bodyMakers()) {
+    kinds.push_back(maker.first);
+  }
+  module.attr("OBJECT_KINDS") = kinds;
 }
 
 }  // namespace pbd

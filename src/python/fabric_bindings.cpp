@@ -52,9 +52,9 @@ void bindFabric(py::module_& module) {
       "gravity (3,) [m/s^2]; threads that advance the copies, eight each. Undeformed, vertex v lies at position (3,)\n"
       "[m] + orientation (4,) * v. Raises ParameterError; ValueError where shape or type of an array is wrong.")
       .def(py::init(&makeFabric), py::kw_only(), py::arg("vertices"), py::arg("triangles"), py::arg("density"),
-           py::arg("thickness"), py::arg("stretching_compliance"), py::arg("bending_compliance"),
-           py::arg("damping") = 10.0, py::arg("threads") = 1, py::arg("gravity") = Vector3(0.0, 0.0, -9.81),
-           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
+           py::arg("thickness"), py::arg("stretching_compliance"), py::arg("bending_compliance"), py::arg("damping"),
+           py::arg("threads") = 1, py::arg("gravity"), py::arg("position") = Vector3::Zero().eval(),
+           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
 }  // namespace pbd

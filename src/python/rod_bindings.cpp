@@ -71,10 +71,9 @@ void bindRod(py::module_& module) {
                         "lies along the x axis of the pose given by\n"
                         "position (3,) [m] and orientation (4,). Raises ParameterError.")
       .def(py::init(&makeRod), py::kw_only(), py::arg("length"), py::arg("radius"), py::arg("density"),
-           py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch") = "zero",
-           py::arg("damping") = 10.0, py::arg("solver") = "direct", py::arg("threads") = 1,
-           py::arg("gravity") = Vector3(0.0, 0.0, -9.81), py::arg("position") = Vector3::Zero().eval(),
-           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
+           py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch"),
+           py::arg("damping"), py::arg("solver"), py::arg("threads") = 1, py::arg("gravity"),
+           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
 void bindEquilibrium(py::module_& module) {

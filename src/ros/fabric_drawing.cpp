@@ -38,6 +38,14 @@ Marker lines(const ObjectState& state, const std::string& ns, std::size_t copy, 
 
 }  // namespace
 
+std::unique_ptr<ObjectDrawing> FabricDrawing::of(const ParameterSection& object) {
+  std::vector<std::array<int, 3>> triangles;
+  for (const pbd::Vector3& corners : object.section("mesh").vectors("triangles")) {
+    triangles.push_back({static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2])});
+  }
+  return std::make_unique<FabricDrawing>(std::move(triangles));
+}
+
 FabricDrawing::FabricDrawing(std::vector<std::array<int, 3>> triangles) : triangles_(std::move(triangles)) {
   std::map<Edge, int> uses;
   for (const std::array<int, 3>& triangle : triangles_) {

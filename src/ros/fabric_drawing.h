@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "deformable_manipulation/parameters/parameter_section.h"
 #include "object_drawing.h"
 
 namespace deformable_manipulation {
@@ -10,8 +11,12 @@ namespace deformable_manipulation {
 //! A fabric as a shaded surface with the lines of its mesh, its copies as outlines.
 class FabricDrawing : public ObjectDrawing {
  public:
+  //! Of the fabric that a section describes.
+  static std::unique_ptr<ObjectDrawing> of(const ParameterSection& object);
+
   explicit FabricDrawing(std::vector<std::array<int, 3>> triangles);
 
+  long triangleCount() const override { return static_cast<long>(triangles_.size()); }
   void drawObject(const ObjectState& state, visualization_msgs::MarkerArray& to) const override;
   visualization_msgs::Marker drawCopy(const ObjectState& state, std::size_t copy,
                                       const std_msgs::ColorRGBA& color) const override;

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "deformable_manipulation/ObjectState.h"
-#include "object_shape.h"
 
 namespace deformable_manipulation {
 
@@ -14,6 +13,9 @@ class ObjectDrawing {
  public:
   virtual ~ObjectDrawing() = default;
 
+  //! How many triangles it draws: large objects are drawn less often.
+  virtual long triangleCount() const = 0;
+
   //! Adds the markers of the object itself.
   virtual void drawObject(const ObjectState& state, visualization_msgs::MarkerArray& to) const = 0;
 
@@ -21,8 +23,5 @@ class ObjectDrawing {
   virtual visualization_msgs::Marker drawCopy(const ObjectState& state, std::size_t copy,
                                               const std_msgs::ColorRGBA& color) const = 0;
 };
-
-//! A line for a rod, a surface for a fabric.
-std::unique_ptr<ObjectDrawing> makeDrawing(const ObjectShape& shape);
 
 }  // namespace deformable_manipulation

@@ -16,8 +16,10 @@ namespace deformable_manipulation {
 class ObjectMarkers {
  public:
   //! @param leader  its name
-  ObjectMarkers(const ObjectShape& shape, std::string leader)
-      : leader_(std::move(leader)), drawing_(makeDrawing(shape)) {}
+  ObjectMarkers(std::unique_ptr<ObjectDrawing> drawing, std::string leader)
+      : leader_(std::move(leader)), drawing_(std::move(drawing)) {}
+
+  long triangleCount() const { return drawing_->triangleCount(); }
 
   //! Copies that are gone since the last call are deleted.
   visualization_msgs::MarkerArray draw(const ObjectState& state);

@@ -25,6 +25,10 @@ Marker line(const ObjectState& state, std::size_t copy, double width, const std:
 
 }  // namespace
 
+std::unique_ptr<ObjectDrawing> RodDrawing::of(const ParameterSection& object) {
+  return std::make_unique<RodDrawing>(2.0 * object.number("radius"));
+}
+
 RodDrawing::RodDrawing(double diameter) : width_(std::max(diameter, kLeastWidth)) {}
 
 void RodDrawing::drawObject(const ObjectState& state, visualization_msgs::MarkerArray& to) const {

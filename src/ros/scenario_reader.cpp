@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deformable_manipulation/parameters/parameter_section.h"
 #include "deformable_manipulation/pbd/errors.h"
-#include "scenario_section.h"
+#include "deformable_manipulation/pbd/object_kinds.h"
+#include "parameter_value_from_xmlrpc.h"
 
 namespace deformable_manipulation {
 namespace {
 
-void readAgents(const ScenarioSection& section, SimulatorScenario& scenario) {
-  const ScenarioSection agents = section.section("agents");
+void readAgents(const ParameterSection& section, SimulatorScenario& scenario) {
+  const ParameterSection agents = section.section("agents");
   for (const std::string& name : agents.keys()) {
-    const ScenarioSection agent = agents.section(name);
+    const ParameterSection agent = agents.section(name);
     const bool assistant = agent.choice<bool>("role", {{"leader", false}, {"assistant", true}});
     scenario.agents.push_back(
         {name, agent.integer("particle"),
@@ -44,15 +46,22 @@ std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario
   return perturbations;
 }
 
+std::unique_ptr<pbd::Body> makeBody(const SimulatorScenario& scenario) {
+  pbd::ParameterCheck check;
+  return pbd::makeBody({scenario.object, "object", check}, {scenario.simulation, "simulation", check});
+}
+
 SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   pbd::ParameterCheck check;
   SimulatorScenario scenario;
-  const ScenarioSection root(value, "", check);
-  const ScenarioSection simulation = root.section("simulation");
-  const ScenarioSection controller = root.section("controller");
+  const ParameterValue plain = toParameterValue(value);
+  const ParameterSection root(plain, "", check);
+  const ParameterSection simulation = root.section("simulation");
+  const ParameterSection controller = root.section("controller");
   scenario.name = root.text("name");
   scenario.frame = root.text("frame");
-  scenario.object = readObject(root.section("object"), simulation);
+  scenario.object = plain["object"];
+  scenario.simulation = plain["simulation"];
   readAgents(root, scenario);
   scenario.perturbation = controller.vector<3>("perturbation");
   scenario.central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});

@@ -2,12 +2,13 @@
 
 #include <XmlRpcValue.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "agent_link.h"
+#include "deformable_manipulation/parameters/parameter_value.h"
 #include "deformable_manipulation/pbd/simulation.h"
-#include "object_reader.h"
 
 namespace deformable_manipulation {
 
@@ -15,17 +16,18 @@ namespace deformable_manipulation {
 struct SimulatorScenario {
   std::string name;
   std::string frame;
-  ObjectParameters object;
+  ParameterValue object;  // the sections of these names, for what is made of them
+  ParameterValue simulation;
   std::vector<pbd::Agent> agents;
-  std::vector<bool> is_assistant;                           // one per agent
-  std::vector<DrivenBy> driven_by;                          // one per agent
-  pbd::Vector3 perturbation = pbd::Vector3::Constant(0.1);  // [m] displacement of the assistants' copies per axis
-  bool central = true;                                      // copies on both sides
-  bool exact_response = false;                              // the controllers want the exact response of the object
+  std::vector<bool> is_assistant;   // one per agent
+  std::vector<DrivenBy> driven_by;  // one per agent
+  pbd::Vector3 perturbation;        // [m] displacement of the assistants' copies per axis
+  bool central;                     // copies on both sides
+  bool exact_response;              // the controllers want the exact response of the object
   pbd::Clock clock;
-  double duration = 0.0;         // s
-  double command_timeout = 0.0;  // s
-  double pose_smoothing = 0.0;   // s
+  double duration;         // s
+  double command_timeout;  // s
+  double pose_smoothing;   // s
 
   //! The leader's name.
   const std::string& leader() const;
@@ -33,6 +35,9 @@ struct SimulatorScenario {
 
 //! Per assistant and axis a copy on one side, or one on each. @param size [m] of the displacement along each axis
 std::vector<pbd::Perturbation> perturbationsOf(const SimulatorScenario& scenario, const pbd::Vector3& size);
+
+//! The object that it describes. @throw pbd::ParameterError
+std::unique_ptr<pbd::Body> makeBody(const SimulatorScenario& scenario);
 
 //! Reads the parameter `scenario` as check_scenario --resolved writes it.
 //! @throw pbd::ParameterError with every key that is missing or of the wrong type

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "object_kinds.h"
 #include "state_message.h"
 
 namespace deformable_manipulation {
@@ -32,14 +33,13 @@ void spinFor(double seconds) { ros::getGlobalCallbackQueue()->callAvailable(ros:
 Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       options_(options),
-      simulation_(makeBody(scenario.object), scenario.agents, perturbationsOf(scenario, scenario.perturbation),
+      simulation_(makeBody(scenario), scenario.agents, perturbationsOf(scenario, scenario.perturbation),
                   scenario.clock),
       object_services_(node_, simulation_),
       live_perturbation_(scenario_, simulation_),
       control_(node_),
-      visualization_(node_, shapeOf(scenario.object), scenario.leader(), options.tf_prefix),
-      diagnostics_(node_, simulation_, links_, control_, !shapeOf(scenario.object).triangles.empty(),
-                   options.lockstep) {
+      visualization_(node_, makeDrawing(scenario.object), scenario.leader(), options.tf_prefix),
+      diagnostics_(node_, simulation_, links_, control_, options.lockstep) {
   if (!simulation_.settled()) {
     ROS_WARN(
         "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "

@@ -11,17 +11,12 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kPeriod = 1.0;  // s
 
-// Ropes and rods yield less than a thousandth to any load in use: beyond this the constraints are not solved, or the
-// object is pulled apart. Fabrics may be softer.
-constexpr double kRodStretch = 0.01;
-constexpr double kFabricStretch = 0.05;
-
 }  // namespace
 
 SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle& node, const pbd::Simulation& simulation,
                                            const std::vector<AgentLink>& links, const RunControl& control,
-                                           bool is_fabric, bool lockstep)
-    : simulation_(simulation), links_(links), control_(control), is_fabric_(is_fabric), lockstep_(lockstep) {
+                                           bool lockstep)
+    : simulation_(simulation), links_(links), control_(control), lockstep_(lockstep) {
   updater_.setHardwareID("none");
   updater_.add("loop", this, &SimulatorDiagnostics::reportLoop);
   updater_.add("object", this, &SimulatorDiagnostics::reportObject);
@@ -83,7 +78,7 @@ void SimulatorDiagnostics::reportObject(Status& status) {
   status.addf("relative error of its length", "%.2e", stretch);
   status.add("perturbed copies", simulation_.body().copies().size());
   status.addf("exact responses found", "%ld of %ld", last_.responses - last_.unknown_responses, last_.responses);
-  if (std::abs(stretch) > (is_fabric_ ? kFabricStretch : kRodStretch)) {
+  if (std::abs(stretch) > simulation_.body().largestStretch()) {
     status.summaryf(DiagnosticStatus::WARN,
                     "Its length is %.1f %% off: pulled apart, or more simulation.substeps are needed.",
                     100.0 * stretch);

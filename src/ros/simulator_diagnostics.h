@@ -16,7 +16,7 @@ class SimulatorDiagnostics {
  public:
   //! Keeps references to all but the node.
   SimulatorDiagnostics(ros::NodeHandle& node, const pbd::Simulation& simulation, const std::vector<AgentLink>& links,
-                       const RunControl& control, bool is_fabric, bool lockstep);
+                       const RunControl& control, bool lockstep);
 
   //! A cycle's work is done. @param busy [s] that it took
   void countCycle(double busy);
@@ -50,7 +50,6 @@ class SimulatorDiagnostics {
   const pbd::Simulation& simulation_;
   const std::vector<AgentLink>& links_;
   const RunControl& control_;
-  bool is_fabric_;
   bool lockstep_;
   long overruns_ = 0;
   Second now_, last_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "object_kinds.h"
+
 namespace deformable_manipulation {
 namespace {
 
@@ -57,7 +59,7 @@ void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const 
   message.header.frame_id = frame;
   message.cycle = simulation.cycle();
   message.reset_count = simulation.resetCount();
-  message.object_type = ObjectState::ROD;
+  message.object_type = objectKind(body.kind()).type;
   message.particle_count = body.particleCount();
   message.point_count = body.pointCount();
   fillAgents(simulation, message);
@@ -69,7 +71,6 @@ void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const 
   message.orientations.resize(4 * body.particleCount());
   if (!body.orientations(0, message.orientations.data())) {
     message.orientations.clear();
-    message.object_type = ObjectState::FABRIC;
   }
 }
 

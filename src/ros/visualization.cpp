@@ -12,14 +12,14 @@ constexpr std::chrono::microseconds kPeriodPerTriangle(30);
 
 }  // namespace
 
-Visualization::Visualization(ros::NodeHandle& node, const ObjectShape& shape, const std::string& leader,
+Visualization::Visualization(ros::NodeHandle& node, std::unique_ptr<ObjectDrawing> drawing, const std::string& leader,
                              std::string tf_prefix)
-    : object_(shape, leader),
+    : object_(std::move(drawing), leader),
       trails_(leader),
       tf_prefix_(std::move(tf_prefix)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 4)),
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 10)),
-      period_(std::max(kPeriod, kPeriodPerTriangle * static_cast<long>(shape.triangles.size()))) {}
+      period_(std::max(kPeriod, kPeriodPerTriangle * object_.triangleCount())) {}
 
 void Visualization::show(const ObjectState& state) {
   trails_.add(state);  // every state, so that a trail does not depend on the machine's speed

@@ -18,7 +18,8 @@ class Visualization {
  public:
   //! @param leader  its name
   //! @param tf_prefix  put before the agents' names to make their tf frames
-  Visualization(ros::NodeHandle& node, const ObjectShape& shape, const std::string& leader, std::string tf_prefix);
+  Visualization(ros::NodeHandle& node, std::unique_ptr<ObjectDrawing> drawing, const std::string& leader,
+                std::string tf_prefix);
 
   void show(const ObjectState& state);
 

@@ -4,6 +4,7 @@
 
 #include "deformable_manipulation/pbd/fabric.h"
 #include "rod_fixture.h"
+#include "settling.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -12,6 +13,10 @@ namespace pbd {
 inline FabricParameters sheet(int columns, int rows, double spacing) {
   FabricParameters p;
   p.density = 1.0;
+  p.thickness = 0.001;
+  p.stretching_compliance = 1e-4;
+  p.damping = 10.0;
+  p.gravity = {0.0, 0.0, -9.81};
   p.bending_compliance = 1e3;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -45,11 +50,7 @@ inline std::unique_ptr<Fabric> hangingCloth(const FabricParameters& p) {
   return hangingFabric(p, {0, 14, 210, 224}, 0.9);
 }
 
-inline SettleOptions smallSubsteps() {
-  SettleOptions options;
-  options.substeps = 10;
-  return options;
-}
+inline SettleOptions smallSubsteps() { return settling(10); }
 
 }  // namespace pbd
 }  // namespace deformable_manipulation

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deformable_manipulation/pbd/rod.h"
+#include "settling.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -18,6 +19,10 @@ inline RodParameters rope(int segments = 28) {
   p.segments = segments;
   p.young_modulus = 30e6;
   p.torsion_modulus = 10e6;
+  p.stretch = Stretch::ZERO;
+  p.damping = 10.0;
+  p.solver = RodSolver::DIRECT;
+  p.gravity = {0.0, 0.0, -9.81};
   p.pose.orientation = Quaternion(Eigen::AngleAxisd(M_PI / 2.0, Vector3::UnitZ()));
   return p;
 }

@@ -36,7 +36,7 @@ TEST_P(FabricAtRest, isReached) {
   p.bending_compliance = c.rigidity > 0.0 ? 1.0 / c.rigidity : std::numeric_limits<double>::infinity();
   p.density = c.density;
   const auto fabric = hangingFabric(p, {0, n - 1, n * (n - 1), n * n - 1}, c.part);
-  SettleOptions options;
+  SettleOptions options = settling();
   options.substeps = c.substeps;
   EXPECT_TRUE(fabric->settle(options));
 }

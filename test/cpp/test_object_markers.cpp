@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "../../src/ros/fabric_drawing.h"
 #include "../../src/ros/object_markers.h"
+#include "../../src/ros/rod_drawing.h"
 
 namespace deformable_manipulation {
 namespace {
@@ -47,7 +49,7 @@ std::vector<Marker> markersOf(const MarkerArray& array, const std::string& ns) {
 }
 
 Marker surfaceOf(const std::vector<double>& points) {
-  ObjectMarkers markers({0.001, kTriangles}, "leader");
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
   return markersOf(markers.draw(stateOf(points, {})), "object").at(0);
 }
 
@@ -78,14 +80,14 @@ TEST(FabricMarkers, whatFacesUpwardsOrDownwardsIsBright) {
 }
 
 TEST(FabricMarkers, theLinesAreTheEdgesEachOnce) {
-  ObjectMarkers markers({0.001, kTriangles}, "leader");
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
   const Marker lines = markersOf(markers.draw(stateOf(kFlat, {})), "object_lines").at(0);
   EXPECT_EQ(lines.type, Marker::LINE_LIST);
   EXPECT_EQ(lines.points.size(), 2u * 7u);
 }
 
 TEST(FabricMarkers, copiesAreOutlinesInTheColourOfTheirAxis) {
-  ObjectMarkers markers({0.001, kTriangles}, "leader");
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
   const MarkerArray array = markers.draw(stateOf(kFlat, {{0.1, 0, 0}, {0, 0, -0.1}}));
   const std::vector<Marker> copies = markersOf(array, "copies");
   ASSERT_EQ(copies.size(), 2u);
@@ -97,13 +99,13 @@ TEST(FabricMarkers, copiesAreOutlinesInTheColourOfTheirAxis) {
 }
 
 TEST(FabricMarkers, closedSurfacesHaveAllTheirEdgesForAnOutline) {
-  ObjectMarkers markers({0.001, kTetrahedron}, "leader");
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTetrahedron), "leader");
   const MarkerArray array = markers.draw(stateOf({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0.1, 0, 0}}));
   EXPECT_EQ(markersOf(array, "copies").at(0).points.size(), 2u * 6u);
 }
 
 TEST(FabricMarkers, copiesThatAreGoneAreDeleted) {
-  ObjectMarkers markers({0.001, kTriangles}, "leader");
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
   markers.draw(stateOf(kFlat, {{0.1, 0, 0}, {0, 0.1, 0}}));
   const std::vector<Marker> copies = markersOf(markers.draw(stateOf(kFlat, {{0.1, 0, 0}})), "copies");
   ASSERT_EQ(copies.size(), 2u);
@@ -112,7 +114,7 @@ TEST(FabricMarkers, copiesThatAreGoneAreDeleted) {
 }
 
 TEST(RodMarkers, aLineForTheObjectAndThinOnesForItsCopies) {
-  ObjectMarkers markers({0.03, {}}, "leader");
+  ObjectMarkers markers(std::make_unique<RodDrawing>(0.03), "leader");
   const MarkerArray array = markers.draw(stateOf(kFlat, {{0, 0.1, 0}}));
   const Marker object = markersOf(array, "object").at(0);
   const Marker copy = markersOf(array, "copies").at(0);
@@ -124,7 +126,7 @@ TEST(RodMarkers, aLineForTheObjectAndThinOnesForItsCopies) {
 }
 
 TEST(AgentMarkers, theLeaderIsKnownByItsNameWhereverItStands) {
-  ObjectMarkers markers({0.03, {}}, "leader");
+  ObjectMarkers markers(std::make_unique<RodDrawing>(0.03), "leader");
   for (const std::vector<std::string>& agents : {std::vector<std::string>{"leader", "one"}, {"one", "leader"}}) {
     ObjectState state = stateOf(kFlat, {});
     state.agents = agents;

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "../../src/ros/object_reader.h"
+#include "../../src/ros/object_kinds.h"
+#include "../../src/ros/parameter_value_from_xmlrpc.h"
+#include "deformable_manipulation/pbd/fabric_parameters.h"
+#include "deformable_manipulation/pbd/object_kinds.h"
 
 namespace deformable_manipulation {
 namespace {
@@ -76,12 +79,11 @@ XmlRpcValue simulation() {
   return result;
 }
 
-ObjectParameters read(const XmlRpcValue& object) {
+std::unique_ptr<pbd::Body> read(const XmlRpcValue& object) {
   pbd::ParameterCheck check;
-  const ObjectParameters parameters =
-      readObject(ScenarioSection(object, "object", check), ScenarioSection(simulation(), "simulation", check));
-  check.throwIfAny();
-  return parameters;
+  const ParameterValue value = toParameterValue(object);
+  const ParameterValue settings = toParameterValue(simulation());
+  return pbd::makeBody({value, "object", check}, {settings, "simulation", check});
 }
 
 std::vector<std::string> mistakesOf(const XmlRpcValue& object) {
@@ -98,8 +100,12 @@ std::vector<std::string> mistakesOf(const XmlRpcValue& object) {
 }
 
 TEST(ObjectReader, aFabricIsAllThatIsInTheScenario) {
-  const ObjectParameters parameters = read(fabric());
-  const pbd::FabricParameters& given = std::get<pbd::FabricParameters>(parameters);
+  pbd::ParameterCheck check;
+  const ParameterValue value = toParameterValue(fabric());
+  const ParameterValue settings = toParameterValue(simulation());
+  const pbd::FabricParameters given =
+      pbd::FabricParameters::read({value, "object", check}, {settings, "simulation", check});
+  check.throwIfAny();
   EXPECT_EQ(given.vertices.size(), 3u);
   EXPECT_EQ(given.vertices[2], pbd::Vector3(0.0, 2.0, 0.0));
   EXPECT_EQ(given.triangles.at(0), (std::array<int, 3>{0, 1, 2}));
@@ -111,19 +117,25 @@ TEST(ObjectReader, aFabricIsAllThatIsInTheScenario) {
   EXPECT_EQ(given.pose.position, pbd::Vector3(0.0, 0.0, 1.0));
   EXPECT_EQ(given.gravity, pbd::Vector3(0.0, 0.0, -9.81));
 
-  const std::unique_ptr<pbd::Body> body = makeBody(parameters);
+  const std::unique_ptr<pbd::Body> body = read(fabric());
+  EXPECT_STREQ(body->kind(), "fabric");
   EXPECT_EQ(body->particleCount(), 3);
   EXPECT_EQ(body->pointCount(), 3);
   EXPECT_NEAR(body->mass(), 0.5, 1e-12);
-  EXPECT_EQ(shapeOf(parameters).thickness, 0.002);
-  EXPECT_EQ(shapeOf(parameters).triangles.size(), 1u);
+  EXPECT_EQ(makeDrawing(value)->triangleCount(), 1);
 }
 
-TEST(ObjectReader, aRodHasItsDiameterForAThickness) {
-  const ObjectParameters parameters = read(rod());
-  EXPECT_EQ(makeBody(parameters)->particleCount(), 10);
-  EXPECT_EQ(shapeOf(parameters).thickness, 0.02);
-  EXPECT_TRUE(shapeOf(parameters).triangles.empty());
+TEST(ObjectReader, aRodIsALine) {
+  const std::unique_ptr<pbd::Body> body = read(rod());
+  EXPECT_STREQ(body->kind(), "rod");
+  EXPECT_EQ(body->particleCount(), 10);
+  EXPECT_EQ(makeDrawing(toParameterValue(rod()))->triangleCount(), 0);
+}
+
+TEST(ObjectReader, everyKindThatIsSimulatedIsDrawnAndSent) {
+  for (const auto& maker : pbd::bodyMakers()) {
+    EXPECT_NO_THROW(objectKind(maker.first));
+  }
 }
 
 TEST(ObjectReader, allMistakesAreToldAtOnce) {

@@ -41,18 +41,18 @@ TEST(Copies, areTheObjectWithADisplacedHold) {
   const Vector3 displacement(0.0, -0.1, 0.05);
   auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
   rod->addCopy(27, displacement);
-  ASSERT_TRUE(rod->settle(SettleOptions()));
+  ASSERT_TRUE(rod->settle(settling()));
   Rod displaced(p);
   displaced.hold(0, Hold::CLAMPED, gripAt(p, Vector3::Zero()));
   displaced.hold(27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0) + displacement));
   displaced.layOut();
-  ASSERT_TRUE(displaced.settle(SettleOptions()));
+  ASSERT_TRUE(displaced.settle(settling()));
   EXPECT_LT(difference(*rod, 1, displaced, 0), 1e-4);
 }
 
 TEST(Copies, startWithoutAJump) {
   auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  rod->settle(SettleOptions());
+  rod->settle(settling());
   rod->addCopy(27, Vector3(0.0, 0.0, 0.1));
   EXPECT_EQ(difference(*rod, 0, *rod, 1), 0.0);
   double last = 0.0;
@@ -72,7 +72,7 @@ TEST(Copies, canBeAddedAndRemovedWhileRunning) {
   for (int i = 0; i < 9; ++i) {
     ids.push_back(rod->addCopy(i % 2 ? 27 : 0, Vector3(0.0, 0.0, 0.01 * (i + 1))));
   }
-  rod->settle(SettleOptions());
+  rod->settle(settling());
   const std::vector<Vector3> fourth = positions(*rod, 4);
   const std::vector<Vector3> ninth = positions(*rod, 9);
   rod->removeCopy(ids[1]);
@@ -91,7 +91,7 @@ TEST(Copies, turnRoundWhereTheyWouldBeOutOfReach) {
   const double reach = p.segmentLength() * 27;
   auto rod = hangingRope(p, reach - 0.15, Hold::CLAMPED);
   rod->addCopy(27, Vector3(0.0, 0.1, 0.0));
-  rod->settle(SettleOptions());
+  rod->settle(settling());
   EXPECT_GT(rod->copies()[0].present.y(), 0.0);
   rod->setTwist(27, {Vector3(0.0, 0.1, 0.0), Vector3::Zero()});
   for (int i = 0; i < 90; ++i) {

@@ -33,7 +33,7 @@ TEST_P(HangingRope, followsTheCatenary) {
   p.solver = GetParam().solver;
   const double span = 1.5;
   auto rod = hangingRope(p, span, Hold::PINNED);
-  SettleOptions options;
+  SettleOptions options = settling();
   options.substeps = GetParam().substeps;
   ASSERT_TRUE(rod->settle(options));
 
@@ -52,7 +52,7 @@ TEST_P(HangingRope, isCarriedByItsHolds) {
   RodParameters p = rope();
   p.solver = GetParam().solver;
   auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
-  SettleOptions options;
+  SettleOptions options = settling();
   options.substeps = GetParam().substeps;
   ASSERT_TRUE(rod->settle(options));
   rod->step(0.01, options.substeps);  // settling ends with all velocities taken away
@@ -83,7 +83,7 @@ TEST(Cantilever, bendsAsABeamUnderItsWeight) {
   p.torsion_modulus = 1e12;
   Rod rod(p);
   rod.hold(0, Hold::CLAMPED);
-  SettleOptions options;
+  SettleOptions options = settling();
   options.speed_tolerance = 1e-7;
   ASSERT_TRUE(rod.settle(options));
   std::vector<double> points(3 * rod.pointCount());
@@ -101,7 +101,7 @@ TEST(Cantilever, isStretchedByItsModulus) {
   p.pose.orientation = Quaternion(Eigen::AngleAxisd(M_PI / 2.0, Vector3::UnitY()));  // hangs down
   Rod rod(p);
   rod.hold(0, Hold::CLAMPED);
-  SettleOptions options;
+  SettleOptions options = settling();
   options.speed_tolerance = 1e-8;
   ASSERT_TRUE(rod.settle(options));
   std::vector<double> points(3 * rod.pointCount());

@@ -30,8 +30,8 @@ TEST(Holds, followTheirPrescribedMotion) {
 TEST(Holds, leaveThePinnedOrientationFree) {
   auto clamped = hangingRope(rope(), 1.5, Hold::CLAMPED);
   auto pinned = hangingRope(rope(), 1.5, Hold::PINNED);
-  clamped->settle(SettleOptions());
-  pinned->settle(SettleOptions());
+  clamped->settle(settling());
+  pinned->settle(settling());
   EXPECT_LT(clamped->wrench(27).force.z(), 0.0);
   EXPECT_GT(clamped->wrench(27).torque.norm(), 1e-2);
   EXPECT_LT(pinned->wrench(27).torque.norm(), 1e-3);  // the overhanging half segment alone
@@ -45,7 +45,7 @@ TEST(Holds, includeAnyNumberOfInteriorSegments) {
              gripAt(rod.parameters(), Vector3(0.0, 0.8 * l * particle, 0.0)));
   }
   rod.layOut();
-  ASSERT_TRUE(rod.settle(SettleOptions()));
+  ASSERT_TRUE(rod.settle(settling()));
   rod.step(0.01, 2);
   double carried = 0.0;
   for (const HeldPoint& held : rod.holds()) {
@@ -56,7 +56,7 @@ TEST(Holds, includeAnyNumberOfInteriorSegments) {
 
 TEST(Holds, canBeTakenAndReleasedWhileRunning) {
   auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  rod->settle(SettleOptions());
+  rod->settle(settling());
   const Vector3 before = positions(*rod)[13];
   rod->hold(13, Hold::PINNED);
   rod->release(27);
@@ -86,7 +86,7 @@ TEST(Holds, refuseWhatCannotBe) {
 
 TEST(Damping, leavesACarriedRopeItsShape) {
   auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  rod->settle(SettleOptions());
+  rod->settle(settling());
   const std::vector<Vector3> before = positions(*rod);
   const Vector3 velocity(0.0, 0.1, 0.0);
   for (int particle : {0, 27}) {
@@ -164,7 +164,7 @@ TEST(Settling, waitsUntilNothingTurns) {
   for (int i = 0; i < 200; ++i) {
     rod.step(0.01, 2);  // to 1 rad
   }
-  SettleOptions options;
+  SettleOptions options = settling();
   options.speed_tolerance = 1e-9;
   ASSERT_TRUE(rod.settle(options));
   rod.step(0.01, 2);
@@ -182,7 +182,7 @@ TEST_P(TautRope, restsAndRecovers) {
   const RodParameters p = rope(segments);
   const double reach = p.length - p.segmentLength();
   auto rod = hangingRope(p, 0.9 * reach, hold);
-  ASSERT_TRUE(rod->settle(SettleOptions()));
+  ASSERT_TRUE(rod->settle(settling()));
   const auto draw = [&rod, &p, n = substeps](double speed, int steps) {
     rod->setTwist(p.segments - 1, {Vector3(0.0, speed, 0.0), Vector3::Zero()});
     for (int i = 0; i < steps; ++i) {
@@ -239,10 +239,10 @@ TEST(Steps, areRefusedWhereTheyCannotBe) {
   const std::vector<Vector3> before = positions(*rod);
   for (double time_step : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(rod->step(time_step, 2), std::invalid_argument);
-    EXPECT_THROW(rod->settle({time_step, 2}), std::invalid_argument);
+    EXPECT_THROW(rod->settle({time_step, 2, 1e-4, 60.0}), std::invalid_argument);
   }
-  EXPECT_THROW(rod->settle({0.01, 0}), std::invalid_argument);
-  EXPECT_THROW(rod->settle({0.01, 2, std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(rod->settle({0.01, 0, 1e-4, 60.0}), std::invalid_argument);
+  EXPECT_THROW(rod->settle({0.01, 2, std::nan(""), 60.0}), std::invalid_argument);
   EXPECT_THROW(rod->settle({0.01, 2, 1e-4, -1.0}), std::invalid_argument);
   try {
     rod->step(-0.01, 0);

@@ -40,7 +40,7 @@ class Equilibrium : public testing::TestWithParam<Grips> {};
 
 TEST_P(Equilibrium, isWhereTheRodSettles) {
   auto rod = heldRod(GetParam());
-  SettleOptions options;
+  SettleOptions options = settling();
   options.speed_tolerance = 1e-8;
   options.substeps = 2;
   ASSERT_TRUE(rod->settle(options));
@@ -57,7 +57,7 @@ TEST_P(Equilibrium, isWhereTheRodSettles) {
 
 TEST_P(Equilibrium, respondsAsSmallDifferencesDo) {
   auto rod = heldRod(GetParam());
-  SettleOptions options;
+  SettleOptions options = settling();
   ASSERT_TRUE(rod->settle(options));
   EquilibriumOptions exact;
   exact.tolerance = 1e-10;
@@ -100,7 +100,7 @@ TEST(EquilibriumOfCopies, isWhereTheySettle) {
     rod->addCopy(27, -0.1 * Vector3::Unit(axis));
     rod->addCopy(0, 0.1 * Vector3::Unit(axis));
   }
-  SettleOptions options;
+  SettleOptions options = settling();
   options.speed_tolerance = 1e-8;
   options.substeps = 2;
   ASSERT_TRUE(rod->settle(options));
@@ -120,7 +120,7 @@ TEST(EquilibriumOfCopies, isWhereTheySettle) {
 
 TEST(Response, followsTheHoldsWarmStarted) {
   auto rod = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  ASSERT_TRUE(rod->settle(SettleOptions()));
+  ASSERT_TRUE(rod->settle(settling()));
   RodEquilibrium equilibrium;
   equilibrium.update(*rod, 1);
   rod->setTwist(27, {Vector3(0.05, -0.1, 0.1), Vector3::Zero()});
@@ -134,7 +134,7 @@ TEST(Response, followsTheHoldsWarmStarted) {
 
 TEST(Response, movesAllPointsWithAllHolds) {
   auto rod = hangingRope(rope(), 1.5, Hold::PINNED);
-  ASSERT_TRUE(rod->settle(SettleOptions()));
+  ASSERT_TRUE(rod->settle(settling()));
   std::vector<double> response(2 * rod->pointCount() * 9);
   ASSERT_EQ(rod->response(response.data()), ResponseStatus::VALID);
   for (int point = 0; point < rod->pointCount(); ++point) {
@@ -154,10 +154,10 @@ TEST(Response, saysWhyThereIsNone) {
   EXPECT_EQ(taut->response(response.data()), ResponseStatus::OUT_OF_REACH);
 
   auto swinging = hangingRope(rope(), 1.5, Hold::CLAMPED);
-  ASSERT_TRUE(swinging->settle(SettleOptions()));
+  ASSERT_TRUE(swinging->settle(settling()));
   swinging->setPose(27, gripAt(rope(), Vector3(0.0, 0.3, 0.0)));
   EXPECT_EQ(swinging->response(response.data()), ResponseStatus::OTHER_SHAPE);
-  ASSERT_TRUE(swinging->settle(SettleOptions()));
+  ASSERT_TRUE(swinging->settle(settling()));
   EXPECT_EQ(swinging->response(response.data()), ResponseStatus::VALID);
 }
 

@@ -32,10 +32,10 @@ struct PerturbedCopy {
 
 //! When a body counts as settled.
 struct SettleOptions {
-  double time_step = 0.01;  //!< [s]
-  int substeps = 10;
-  double speed_tolerance = 1e-4;  //!< [m/s] of the fastest particle of all copies
-  double time_limit = 60.0;       //!< [s] simulated
+  double time_step;  //!< [s]
+  int substeps;
+  double speed_tolerance;  //!< [m/s] of the fastest particle of all copies
+  double time_limit;       //!< [s] simulated
 };
 
 //! A deformable object and its perturbed copies, simulated by position-based dynamics.
@@ -48,6 +48,13 @@ class Body {
 
   //! An independent body in the same state.
   virtual std::unique_ptr<Body> clone() const = 0;
+
+  //! The word that says its kind in the scenario, see bodyMakers().
+  virtual const char* kind() const = 0;
+
+  //! The size up to which stretch() is that of an object in use: beyond it the constraints are not solved, or the
+  //! object is pulled apart.
+  virtual double largestStretch() const = 0;
 
   //! Particles that can be held.
   virtual int particleCount() const = 0;

@@ -29,6 +29,8 @@ class Fabric final : public Body {
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;
+  const char* kind() const override { return "fabric"; }
+  double largestStretch() const override { return 0.05; }  //!< fabrics may be softer
   int particleCount() const override { return static_cast<int>(parameters_.vertices.size()); }
   int pointCount() const override { return particleCount(); }
 

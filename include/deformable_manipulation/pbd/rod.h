@@ -27,6 +27,8 @@ class Rod final : public Body {
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;
+  const char* kind() const override { return "rod"; }
+  double largestStretch() const override { return 0.01; }  //!< less than a thousandth to any load in use
   int particleCount() const override { return parameters_.segments; }
   int pointCount() const override { return parameters_.segments + 1; }
   double freeLength(int particle, int other) const override;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "deformable_manipulation/parameters/parameter_section.h"
 #include "deformable_manipulation/pbd/errors.h"
 #include "deformable_manipulation/pbd/types.h"
 
@@ -18,20 +19,24 @@ enum class RodSolver {
   DIRECT         //!< the whole chain at once, block tridiagonal
 };
 
-//! A straight rod of circular cross-section.
+//! A straight rod of circular cross-section. Ranges, defaults and meanings of the keys are declared in Python, see
+//! docs/parameters.md; here are only their values.
 struct RodParameters {
-  double length = 1.0;           //!< [m]
-  double radius = 0.005;         //!< [m]
-  double density = 1000.0;       //!< [kg/m^3]
-  int segments = 20;             //!< rigid segments, at least 2
-  double young_modulus = 1e7;    //!< [Pa] bending
-  double torsion_modulus = 4e6;  //!< [Pa] twist
-  Stretch stretch = Stretch::ZERO;
-  double damping = 10.0;  //!< [1/s] decay rate of motion relative to the held points
-  RodSolver solver = RodSolver::DIRECT;
-  int threads = 1;                             //!< that advance the copies, eight in each; results do not depend on it
-  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  //!< [m/s^2]
-  Pose pose;                                   //!< undeformed rod: first end at the position, along the pose's x axis
+  double length;           //!< [m]
+  double radius;           //!< [m]
+  double density;          //!< [kg/m^3]
+  int segments;            //!< rigid segments, at least 2
+  double young_modulus;    //!< [Pa] bending
+  double torsion_modulus;  //!< [Pa] twist
+  Stretch stretch;
+  double damping;  //!< [1/s] decay rate of motion relative to the held points
+  RodSolver solver;
+  int threads = 1;  //!< that advance the copies, eight in each; results do not depend on it
+  Vector3 gravity;  //!< [m/s^2]
+  Pose pose;        //!< undeformed rod: first end at the position, along the pose's x axis
+
+  //! Reads the sections `object` and `simulation`; `threads` is none of their keys.
+  static RodParameters read(const ParameterSection& object, const ParameterSection& simulation);
 
   //! Notes every parameter that is out of range.
   void check(ParameterCheck& check) const;

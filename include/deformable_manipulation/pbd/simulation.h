@@ -25,9 +25,9 @@ struct Perturbation {
 
 //! Division of time.
 struct Clock {
-  double time_step = 0.01;  //!< [s]
-  int substeps = 2;         //!< per time step
-  int steps_per_cycle = 1;  //!< time steps between two states
+  double time_step;     //!< [s]
+  int substeps;         //!< per time step
+  int steps_per_cycle;  //!< time steps between two states
 
   double cycleTime() const { return time_step * steps_per_cycle; }
 

@@ -87,8 +87,8 @@ def _meshes(request: Request) -> List[Table]:
         builds.rows.append({"faces": faces, **row})
         for case, height in HEIGHTS.items():
             body = fabric(COPIES, height=height)
-            candidates = _own(obstacle, body.triangles)
-            candidates.append((FclMesh.name, FclMesh(*mesh, body.triangles)))
+            candidates = _own(obstacle, body.faces())
+            candidates.append((FclMesh.name, FclMesh(*mesh, body.faces())))
             if faces <= MOST_FOR_TRIMESH:
                 candidates.append((TrimeshVertices.name, TrimeshVertices(*mesh)))
             for name, call in candidates:
@@ -110,7 +110,7 @@ def _growth(request: Request) -> Table:
         particles = body.states.shape[2]
         request.say(f"{particles} particles, {copies} copies")
         labels = {"faces": len(mesh[1]), "particles": particles, "copies": copies}
-        call = _own(obstacle, body.triangles)[0][1]
+        call = _own(obstacle, body.faces())[0][1]
         table.rows.append({**labels, **_timed(call, body, request)})
     return table
 

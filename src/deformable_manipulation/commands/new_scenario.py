@@ -15,13 +15,13 @@ from deformable_manipulation.authoring.scenario_text import NoMaterial, moved_te
 from deformable_manipulation.authoring.yaml_edit import replace_scalars
 from deformable_manipulation.commands.arguments import command_parser, folder_name
 from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.scenario import (
     ScenarioError,
     load_scenario,
     package_share_directory,
 )
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.materials import KINDS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.text_files import read_text
 
@@ -75,7 +75,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="folder, made if it is not there (default: this one)",
     )
     origin = parser.add_mutually_exclusive_group()
-    origin.add_argument("--object", choices=KINDS, help=f"what is carried (default: {KINDS[0]})")
+    origin.add_argument(
+        "--object", choices=KINDS, help=f"what is carried (default: {next(iter(KINDS))})"
+    )
     origin.add_argument(
         "--from",
         dest="source",
@@ -130,7 +132,7 @@ def _make(arguments: argparse.Namespace) -> Places:
 def _source(arguments: argparse.Namespace) -> Path:
     if arguments.source is not None:
         return find_scenario(arguments.source).resolve()
-    kind = arguments.object or KINDS[0]
+    kind = arguments.object or next(iter(KINDS))
     return package_share_directory() / "config" / "templates" / f"{kind}.yaml"
 
 

@@ -14,7 +14,7 @@ from deformable_manipulation.recording.recorded_motion import with_recorded_moti
 from deformable_manipulation.recording.run_data import BAG_SUFFIXES, holds_run
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.spec import FabricSpec, Scenario
+from deformable_manipulation.scenario.spec import Scenario
 
 _EVEN = (0.0, 0.25, 0.5, 0.75)  # of the duration
 
@@ -54,7 +54,7 @@ class SnapshotSource:
     def hides_itself(self) -> bool:
         """Whether pictures of several times over each other would show little."""
         moves = any(obstacle.motion for obstacle in self.scenario.obstacles)
-        return moves or isinstance(self.scenario.object, FabricSpec)
+        return moves or self.scenario.object.is_surface
 
     def bounds(self) -> np.ndarray:
         """The corners (2, 3) [m] of what there is to be seen."""

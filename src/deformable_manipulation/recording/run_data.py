@@ -7,9 +7,9 @@ from typing import List, Mapping, Optional, Tuple
 
 import numpy as np
 
+from deformable_manipulation.objects.common import LARGEST_VALID_STRETCH
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.timeseries import vector_columns
-from deformable_manipulation.simulation.stretch import LARGEST_VALID_STRETCH
 
 BAG_SUFFIXES = (".bag", ".bag.active")
 

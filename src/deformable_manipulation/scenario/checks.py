@@ -9,7 +9,6 @@ from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Report, Slopes
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.barriers.pairs import limits_between
-from deformable_manipulation.scenario.objects import free_length
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
@@ -106,7 +105,7 @@ def check_time(report: Report, controller: ControllerSpec, simulation: Simulatio
 def check_starts(report: Report, spec, agents: Tuple[AgentSpec, ...]) -> None:
     """No two agents start further apart than the object reaches."""
     for first, second in combinations(agents, 2):
-        length = free_length(spec, first.particle, second.particle)
+        length = spec.free_length(first.particle, second.particle)
         distance = _distance(first.start, second.start)
         if _exceeds(distance, length):
             _report_start(
@@ -123,7 +122,7 @@ def check_limits(
 ) -> None:
     """The limits of every pair of agents suit the object, and the start is within them."""
     for first, second in combinations(agents, 2):
-        length = free_length(spec, first.particle, second.particle)
+        length = spec.free_length(first.particle, second.particle)
         limits = limits_between(spec, first, second, controller)
         between = "{} and {}".format(first.name, second.name)
         if _exceeds(limits.max_distance, length):
@@ -197,7 +196,7 @@ def check_perturbation(
     """Displaced copies stay within the object's reach, one way or the other."""
     shortest = min(
         (
-            free_length(spec, first.particle, second.particle)
+            spec.free_length(first.particle, second.particle)
             for first, second in combinations(agents, 2)
         ),
         default=math.inf,

@@ -233,7 +233,7 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     """The section with what depends on the object and on its barriers filled in."""
     filled = {}
     if controller.jacobian is None:
-        filled["jacobian"] = "equilibrium" if spec.type == "rod" else "perturbed_copies"
+        filled["jacobian"] = spec.jacobian
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)

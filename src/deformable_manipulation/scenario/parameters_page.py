@@ -8,18 +8,17 @@ import re
 import sys
 from typing import Any, Dict, List, Sequence, Tuple
 
+from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.reading.parameter import Parameter
 from deformable_manipulation.reading.pose import POSE
 from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
-from deformable_manipulation.scenario.fabric import FABRIC
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
-from deformable_manipulation.scenario.rod import ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 from deformable_manipulation.system.package_files import package_share_directory
@@ -45,8 +44,7 @@ def sections() -> Dict[str, Any]:
     """Every section with a heading of its own, by that heading."""
     return {
         "Top level": SCENARIO,
-        "object: rod": ROD,
-        "object: fabric": FABRIC,
+        **{"object: " + name: kind.section for name, kind in KINDS.items()},
         "object.pose": POSE,
         "agents": AGENT,
         "obstacles: polygon": POLYGON_OBSTACLE,

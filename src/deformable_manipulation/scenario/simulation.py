@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Optional
 
 from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.objects.body import GRAVITY, JOINT_SOLVER
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
@@ -16,7 +17,6 @@ from deformable_manipulation.reading.readers import (
     Section,
     vector,
 )
-from deformable_manipulation.scenario.objects import auto_substeps
 
 
 class Substeps(Integer):
@@ -55,13 +55,13 @@ class SimulationSpec:
     solver: str = parameter(
         Choice("direct", "gauss_seidel"),
         "Solver of a rod's joints: all at once, or one after the other.",
-        default="direct",
+        default=JOINT_SOLVER,
         allowed="rods only",
     )
     gravity: Vector = parameter(
         vector("m/s^2", at_least=-1000.0, at_most=1000.0),
         "Gravity.",
-        default=(0.0, 0.0, -9.81),
+        default=GRAVITY,
     )
     record_rate: float = parameter(
         Number("Hz", above=0.0),
@@ -81,7 +81,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
     :param simulation: as read, with None for what is not given.
     :param spec: the object.
     """
-    if simulation.solver is not None and spec.type != "rod":
+    if simulation.solver is not None and not spec.has_joints:
         report.add(
             ("simulation", "solver"),
             "is of a rod's joints; remove it",
@@ -89,7 +89,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
         )
     filled = {}
     if simulation.substeps is None:
-        filled["substeps"] = auto_substeps(spec, simulation.time_step)
+        filled["substeps"] = spec.substeps(simulation.time_step)
     if simulation.solver is None:
         filled["solver"] = SimulationSpec.solver
     return dataclasses.replace(simulation, **filled)

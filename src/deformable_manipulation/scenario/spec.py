@@ -7,9 +7,13 @@ section's class is declared in a module of its own, with all that is to know of 
 """
 
 from dataclasses import dataclass
-from typing import Tuple, Union
+from typing import Tuple
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.objects.fabric import FabricSpec
+from deformable_manipulation.objects.kinds import read_object
+from deformable_manipulation.objects.rod import RodSpec
+from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.reading.names import FRAME, ONE_LINE
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.pose import Pose
@@ -23,7 +27,6 @@ from deformable_manipulation.scenario.controller import (
     DECENTRALISED,
     ControllerSpec,
 )
-from deformable_manipulation.scenario.fabric import FabricSpec
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, KnowledgeSpec
 from deformable_manipulation.scenario.motions import (
@@ -33,14 +36,12 @@ from deformable_manipulation.scenario.motions import (
     PoseWaypoint,
     TopicMotion,
 )
-from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import (
     MeshObstacle,
     Obstacle,
     PolygonObstacle,
     read_obstacles,
 )
-from deformable_manipulation.scenario.rod import RodSpec
 from deformable_manipulation.scenario.simulation import SIMULATION, SimulationSpec
 from deformable_manipulation.scenario.waypoints import (
     LEADER_PATH,
@@ -90,7 +91,7 @@ class Scenario:
         "until you change it (`check_scenario` warns, `new_scenario --from` changes it).",
         default_text="the file's name without `.yaml`",
     )
-    object: Union[RodSpec, FabricSpec] = parameter(
+    object: ObjectSpec = parameter(
         Custom(read_object, "a section with type and its keys"), "What is carried."
     )
     # The agents' starts follow from the object: their section is read when all others have been.

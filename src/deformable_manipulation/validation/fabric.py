@@ -60,7 +60,7 @@ def make_fabric(mesh: Mesh, properties: FabricProperties, **options) -> _pbd.Fab
         stretching_compliance=properties.stretching_compliance,
         bending_compliance=properties.bending_compliance,
         damping=properties.damping,
-        **options,
+        **{"gravity": (0.0, 0.0, -9.81), **options},
     )
 
 

@@ -70,7 +70,7 @@ def make_rod(
         young_modulus=properties.young_modulus,
         torsion_modulus=properties.torsion_modulus,
         gravity=gravity,
-        **options,
+        **{"stretch": "zero", "damping": 10.0, "solver": "direct", **options},
     )
 
 

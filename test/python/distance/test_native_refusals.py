@@ -57,6 +57,10 @@ def test_settings_of_an_equilibrium(settings, text):
         segments=10,
         young_modulus=3e7,
         torsion_modulus=1e7,
+        stretch="zero",
+        damping=10.0,
+        solver="direct",
+        gravity=(0.0, 0.0, -9.81),
     )
     with pytest.raises(ValueError, match=text):
         _pbd.RodEquilibrium().update(rod, **settings)

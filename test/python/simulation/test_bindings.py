@@ -18,6 +18,10 @@ ROPE = {
     "segments": SEGMENTS,
     "young_modulus": 3.0e7,
     "torsion_modulus": 1.0e7,
+    "stretch": "zero",
+    "damping": 10.0,
+    "solver": "direct",
+    "gravity": (0.0, 0.0, -GRAVITY),
 }
 ALONG_Y = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
 UP = (0.0, 0.0, 0.05)
@@ -166,7 +170,7 @@ def test_all_wrong_parameters_are_named_at_once():
 )
 def test_a_wrong_choice_names_the_right_ones(choice, allowed):
     with pytest.raises(_pbd.ParameterError, match=allowed) as error:
-        _pbd.Rod(**ROPE, **choice)
+        _pbd.Rod(**{**ROPE, **choice})
     ((key, _, _),) = error.value.problems
     assert key == list(choice)[0]
 

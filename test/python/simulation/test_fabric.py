@@ -21,7 +21,12 @@ SQUARE = rectangle((0.4, 0.4), (5, 5))
 
 def fabric_of(vertices=SQUARE.vertices, triangles=SQUARE.triangles, **changed):
     parameters = dict(
-        density=1.0, thickness=0.001, stretching_compliance=1e-4, bending_compliance=1e3
+        density=1.0,
+        thickness=0.001,
+        stretching_compliance=1e-4,
+        bending_compliance=1e3,
+        damping=10.0,
+        gravity=(0.0, 0.0, -9.81),
     )
     return _pbd.Fabric(vertices=vertices, triangles=triangles, **{**parameters, **changed})
 

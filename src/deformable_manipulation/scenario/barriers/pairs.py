@@ -5,8 +5,6 @@ from itertools import combinations
 
 import numpy as np
 
-from deformable_manipulation.scenario.objects import free_length
-
 AUTO_MIN_DISTANCE = 0.10  # of the free length
 
 
@@ -27,7 +25,7 @@ def limits_between(spec, first, second, controller) -> PairLimits:
         second: the other one.
         controller: the section ``controller``.
     """
-    length = free_length(spec, first.particle, second.particle)
+    length = spec.free_length(first.particle, second.particle)
     max_distance = controller.overstretch.max_distance
     min_distance = controller.proximity.min_distance
     return PairLimits(

@@ -1,28 +1,32 @@
-"""The ``object`` section of a fabric, and where its particles are before it is deformed."""
+"""A fabric of triangles: all that Python knows of this kind of object."""
 
+import dataclasses
+import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
+
+import numpy as np
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.objects.body import make_body
+from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
+from deformable_manipulation.objects.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
+from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.meshes import InlineMesh, Mesh, Scale, scaled
 from deformable_manipulation.reading.parameter import declared, parameter
 from deformable_manipulation.reading.pose import POSE, Pose
-from deformable_manipulation.reading.readers import (
-    Array,
-    Node,
-    Number,
-    Section,
-    Unreadable,
-)
-from deformable_manipulation.scenario.fabric_grid import LARGEST_PARTICLE_COUNT, read_grid
-from deformable_manipulation.scenario.rod import DAMPING, kind_keys
+from deformable_manipulation.reading.readers import Array, Node, Number, Section, Unreadable
+
+_SUBSTEP = 1e-3  # s; one iteration per substep is all that a fabric's constraints get
+_ROUNDING = 1e-6  # of a substep
+_LARGEST_PULL = 10.0  # times the weight of a fabric
 
 
 @dataclass(frozen=True)
-class FabricSpec:
+class FabricSpec(ObjectSpec):
     """A fabric: a triangle mesh with mass, membrane and bending stiffness.
 
     Particle i is vertex i of the mesh. Undeformed, a vertex v lies at
@@ -60,16 +64,107 @@ class FabricSpec:
     )
 
     type = "fabric"
+    jacobian = "perturbed_copies"
+    has_joints = False
+    is_surface = True
 
     @property
     def particles(self) -> int:
-        """Number of particles that can be held (the vertices)."""
+        """Number of particles that can be held: the vertices."""
         return len(self.vertices)
 
     @property
     def margin(self) -> float:
         """Distance [m] of the surface from the mid-surface."""
         return 0.5 * self.thickness
+
+    def faces(self) -> np.ndarray:
+        """See :meth:`.ObjectSpec.faces`."""
+        return np.array(self.triangles)
+
+    def edges(self) -> Tuple[np.ndarray, np.ndarray]:
+        """The sides of the triangles; see :meth:`.ObjectSpec.edges`."""
+        triangles = np.array(self.triangles)
+        sides = np.concatenate((triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]))
+        edges = np.unique(np.sort(sides, axis=1), axis=0)
+        vertices = np.array(self.vertices)
+        return edges, np.linalg.norm(vertices[edges[:, 1]] - vertices[edges[:, 0]], axis=1)
+
+    def particle_position(self, particle: int) -> Vector:
+        """A vertex of the undeformed fabric [m], in the fixed frame."""
+        offset = rotate(self.pose.orientation, self.vertices[particle])
+        return tuple(p + o for p, o in zip(self.pose.position, offset))
+
+    def free_length(self, first: int, second: int) -> float:
+        """The shortest way [m] between two vertices over the surface."""
+        return _body(self).free_length(first, second)
+
+    def substeps(self, time_step: float) -> int:
+        """As many as make substeps of a length that suits fabrics."""
+        return math.ceil(time_step / _SUBSTEP - _ROUNDING)
+
+    def valid_stretch(self, gravity: Vector) -> float:
+        """More than that of rods by what a pull of ten times its weight does.
+
+        That is 10 x compliance x weight / length of an edge of mean length. Held by corners at 99 %
+        of its size, a fabric pulls on them by several times its weight.
+        """
+        corners = np.array(self.vertices)[np.array(self.triangles)]
+        doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = 0.5 * np.linalg.norm(doubled, axis=1).sum()
+        weight = self.density * area * np.linalg.norm(gravity)
+        mean_length = self.edges()[1].mean()
+        pulled = _LARGEST_PULL * self.stretching_compliance * weight / mean_length
+        return float(LARGEST_VALID_STRETCH + pulled)
+
+    def with_factors(self, stiffness: float, density: float) -> "FabricSpec":
+        """See :meth:`.ObjectSpec.with_factors`."""
+        return dataclasses.replace(
+            self,
+            stretching_compliance=self.stretching_compliance / stiffness,
+            bending_compliance=self.bending_compliance / stiffness,
+            density=density * self.density,
+        )
+
+    def with_random_material(self, draw: Callable[[], float]) -> "FabricSpec":
+        """Each compliance has a factor of its own."""
+        return dataclasses.replace(
+            self,
+            stretching_compliance=draw() * self.stretching_compliance,
+            bending_compliance=draw() * self.bending_compliance,
+            density=draw() * self.density,
+        )
+
+    def description(self) -> str:
+        """What it is, in a few words."""
+        sizes = (max(axis) - min(axis) for axis in zip(*self.vertices))
+        return "fabric of {} m, {:g} kg/m^2, {} particles, {} triangles".format(
+            " x ".join("{:.4g}".format(size) for size in sizes if size),
+            self.density,
+            self.particles,
+            len(self.triangles),
+        )
+
+    def material_description(self) -> str:
+        """What it is made of: the values that a material preset and the scenario give."""
+        stiffnesses = (
+            "{:.4g} {}".format(1.0 / compliance, unit) if compliance else "rigid"
+            for compliance, unit in (
+                (self.stretching_compliance, "N/m"),
+                (self.bending_compliance, "N m"),
+            )
+        )
+        return (
+            "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
+                self.density, self.thickness, *stiffnesses
+            )
+        )
+
+    def to_mapping(self) -> Dict[str, Any]:
+        """The section ``object`` as plain values, with the mesh inline."""
+        mapping = super().to_mapping()
+        mesh = {key: mapping.pop(key) for key in ("vertices", "triangles")}
+        return {"type": mapping.pop("type"), "mesh": mesh, **mapping}
 
 
 @dataclass(frozen=True)
@@ -162,12 +257,10 @@ def _report(node: Node, key: str, message: str) -> None:
 
 def _check_body(node: Node, fabric: FabricSpec) -> None:
     """Report what the simulation refuses, which knows best what it can simulate."""
-    from deformable_manipulation import _pbd
-
     try:
         _body(fabric)
-    except _pbd.ParameterError as error:
-        for key, value, allowed in error.problems:
+    except ValueError as error:
+        for key, value, allowed in error.problems:  # a _pbd.ParameterError
             node.report.add(node.path + _key_path(node, key), "must be {}".format(allowed), value)
         raise Unreadable from None
 
@@ -184,19 +277,4 @@ def _key_path(node: Node, key: str) -> Tuple[str, ...]:
 
 @lru_cache(maxsize=4)
 def _body(fabric: FabricSpec):
-    # Imported late: loads the compiled simulation, which scenarios of rods do not need.
-    from deformable_manipulation.scenario.simulation import SimulationSpec
-    from deformable_manipulation.simulation.factory import make_body
-
-    return make_body(fabric, SimulationSpec(duration=1.0))
-
-
-def fabric_particle_position(fabric: FabricSpec, particle: int) -> Vector:
-    """A vertex of the undeformed fabric [m], in the fixed frame."""
-    offset = rotate(fabric.pose.orientation, fabric.vertices[particle])
-    return tuple(p + o for p, o in zip(fabric.pose.position, offset))
-
-
-def fabric_free_length(fabric: FabricSpec, first: int, second: int) -> float:
-    """Greatest distance [m] between two vertices that does not stretch the fabric."""
-    return _body(fabric).free_length(first, second)
+    return make_body(fabric)

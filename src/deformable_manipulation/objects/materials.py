@@ -2,7 +2,8 @@
 
 import dataclasses
 from functools import lru_cache
-from typing import Any, Callable, Dict, Mapping
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Mapping
 
 import yaml
 
@@ -10,8 +11,16 @@ from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.readers import Node, Unreadable, nearest
 from deformable_manipulation.system.package_files import package_share_directory
 
-KINDS = ("rod", "fabric")
 NOTES = ("about", "source")  # what a preset has beside keys of the object
+
+
+def kinds_with_presets() -> List[str]:
+    """Kinds of objects that there are presets for."""
+    return sorted(path.stem for path in _folder().glob("*.yaml"))
+
+
+def _folder() -> Path:
+    return package_share_directory() / "config" / "materials"
 
 
 @lru_cache(maxsize=None)
@@ -20,7 +29,7 @@ def presets(kind: str) -> Mapping[str, Mapping[str, Any]]:
 
     Not to be changed. Raises FileNotFoundError where the package's files are not found.
     """
-    path = package_share_directory() / "config" / "materials" / "{}.yaml".format(kind)
+    path = _folder() / "{}.yaml".format(kind)
     return yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
@@ -53,7 +62,7 @@ def _filled(node: Node, kind: str, name: str, given: Mapping[str, Any]) -> Node:
 
 
 def _unknown(value, kind: str) -> str:
-    for other in KINDS:
+    for other in kinds_with_presets():
         if other != kind and isinstance(value, str) and value in presets(other):
             hint = " that is a material of type {};".format(other)
             break

@@ -1,0 +1,172 @@
+"""A rope or a stiff rod: all that Python knows of this kind of object."""
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Callable, Tuple
+
+import numpy as np
+
+from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
+from deformable_manipulation.objects.spec import ObjectSpec
+from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.pose import POSE, Pose
+from deformable_manipulation.reading.readers import Choice, Integer, Node, Number, Section
+
+_SUBSTEPS = 2  # for the direct solver
+LARGEST_MODULUS = 1e13  # Pa, ten times that of diamond
+MODULUS = Number("Pa", above=0.0, at_most=LARGEST_MODULUS)
+
+
+@dataclass(frozen=True)
+class RodSpec(ObjectSpec):
+    """A rope or rod: ``segments`` rigid segments end to end.
+
+    Undeformed it lies along the x axis of ``pose``, from its first end at the origin.
+    """
+
+    length: float = parameter(
+        Number("m", above=0.0, at_most=1e3), "Length of the undeformed rod.", native=True
+    )
+    radius: float = parameter(
+        Number("m", above=0.0),
+        "Radius of its round cross-section. Distances are measured from the surface.",
+        allowed="below half the length",
+        native=True,
+    )
+    density: float = parameter(
+        Number("kg/m^3", above=0.0, at_most=1e5),
+        "Mass per volume of the solid cross-section: mass / (pi radius^2 length).",
+        native=True,
+    )
+    segments: int = parameter(
+        Integer(2, 10000),
+        "More segments give a finer shape and cost proportionally more time; 28 suits 2 m of rope.",
+        native=True,
+    )
+    young_modulus: float = parameter(
+        MODULUS,
+        "Resists bending. Soft ropes have 1e+6 to 1e+8, stiff rods 1e+9 and more.",
+        native=True,
+    )
+    torsion_modulus: float = parameter(
+        MODULUS,
+        "Resists twisting. About a third of `young_modulus` for solid materials.",
+        native=True,
+    )
+    stretch: str = parameter(
+        Choice("zero", "from_moduli"),
+        "`zero`: the segments stay end to end. `from_moduli`: axial stiffness young_modulus x "
+        "cross-section.",
+        default="zero",
+        native=True,
+    )
+    damping: float = parameter(
+        DAMPING,
+        "Decay rate of motion relative to the held points. Lower it for an object that swings for "
+        "long, raise it for one that comes to rest sooner.",
+        default=10.0,
+        native=True,
+    )
+    pose: Pose = parameter(
+        POSE,
+        "Pose of the undeformed object.",
+        default=Pose(),
+        default_text="at the origin, along x",
+        native=True,
+    )
+
+    type = "rod"
+    jacobian = "equilibrium"
+    has_joints = True
+    is_surface = False
+
+    @property
+    def particles(self) -> int:
+        """Number of particles that can be held: the segments."""
+        return self.segments
+
+    @property
+    def margin(self) -> float:
+        """Distance [m] of the surface from the centre line."""
+        return self.radius
+
+    def faces(self) -> None:
+        """It is a line."""
+
+    def edges(self) -> Tuple[np.ndarray, np.ndarray]:
+        """The segments; see :meth:`.ObjectSpec.edges`."""
+        ends = np.arange(self.segments)
+        lengths = np.full(self.segments, self.length / self.segments)
+        return np.stack((ends, ends + 1), axis=1), lengths
+
+    def particle_position(self, particle: int) -> Vector:
+        """Centre of a segment of the undeformed rod [m], in the fixed frame."""
+        along = (particle + 0.5) * self.length / self.segments
+        offset = rotate(self.pose.orientation, (along, 0.0, 0.0))
+        return tuple(p + o for p, o in zip(self.pose.position, offset))
+
+    def free_length(self, first: int, second: int) -> float:
+        """Length of rod [m] between the centres of two segments."""
+        return self.length / self.segments * abs(first - second)
+
+    def substeps(self, time_step: float) -> int:
+        """What does for the direct solver."""
+        return _SUBSTEPS
+
+    def valid_stretch(self, gravity: Vector) -> float:
+        """See :data:`LARGEST_VALID_STRETCH`."""
+        return LARGEST_VALID_STRETCH
+
+    def with_factors(self, stiffness: float, density: float) -> "RodSpec":
+        """See :meth:`.ObjectSpec.with_factors`."""
+        return dataclasses.replace(
+            self,
+            young_modulus=stiffness * self.young_modulus,
+            torsion_modulus=stiffness * self.torsion_modulus,
+            density=density * self.density,
+        )
+
+    def with_random_material(self, draw: Callable[[], float]) -> "RodSpec":
+        """Both moduli have the same factor."""
+        return self.with_factors(draw(), draw())
+
+    def description(self) -> str:
+        """What it is, in a few words."""
+        return "rod of {:g} m, radius {:g} m, {} segments".format(
+            self.length, self.radius, self.segments
+        )
+
+    def material_description(self) -> str:
+        """What it is made of: the values that a material preset and the scenario give."""
+        area = math.pi * self.radius**2
+        return (
+            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
+            "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
+                self.density,
+                self.young_modulus,
+                self.torsion_modulus,
+                self.density * area * self.length,
+                self.young_modulus * area * self.radius**2 / 4.0,
+            )
+        )
+
+
+ROD = Section(
+    RodSpec, others=kind_keys("rod", "`radius`, `density`, `young_modulus` and `torsion_modulus`")
+)
+
+
+def read_rod(node: Node) -> RodSpec:
+    """Read and check the ``object`` section of a rod."""
+    rod = ROD(node)
+    if 2.0 * rod.radius >= rod.length:
+        node.report.add(
+            node.path + ("radius",),
+            "must be less than half of object.length ({:g} m)".format(rod.length),
+            show(rod.radius),
+        )
+    return rod
