@@ -1,7 +1,7 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
-from typing import Dict
+from typing import Any, Dict
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
@@ -121,7 +121,7 @@ def make_minimum_distance(scenario: Scenario):
     Raises ValueError: an obstacle's file cannot be read, or its shape is none.
     """
     body, collision = scenario.object, scenario.controller.collision
-    backend = MinimumDistance
+    backend: Any = MinimumDistance
     if collision.backend == "reference":
         from deformable_manipulation.distance.reference import ReferenceMinimumDistance
 

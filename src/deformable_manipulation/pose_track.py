@@ -1,6 +1,7 @@
 """An obstacle whose poses are measured."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ class PoseTrack:
         self._timeout = timeout
         self._estimator = VelocityEstimator(min_interval, timeout)
         self._stamp = None  # s, of the pose; inf: it holds for ever
-        self._pose = None
+        self._pose: Any = None  # MovingPose, once there is one
 
     def hold(self, position, orientation):
         """Take a pose that holds for ever."""

@@ -1,6 +1,6 @@
 """A campaign in numbers, for people and programs."""
 
-from typing import Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
@@ -9,13 +9,13 @@ from deformable_manipulation.campaign.outcome import RunOutcome
 LIMITS = ("distance", "overstretch", "proximity")
 
 
-def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, object]:
+def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any]:
     """Counts and worst values; lengths in m.
 
     :param tolerance: [m] up to which a violation does not count.
     """
     finished = [outcome for outcome in outcomes if outcome.completed]
-    summary: Dict[str, object] = {
+    summary: Dict[str, Any] = {
         "runs": len(outcomes),
         "not_completed": len(outcomes) - len(finished),
         "tolerance": tolerance,
@@ -31,7 +31,7 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, obj
     return summary
 
 
-def is_acceptable(summary: Dict[str, object]) -> bool:
+def is_acceptable(summary: Dict[str, Any]) -> bool:
     """Whether no limit was violated, no run broke down or deadlocked, no program failed."""
     return not (
         summary["not_completed"]
@@ -58,7 +58,7 @@ def worst(outcomes: Sequence[RunOutcome]) -> RunOutcome:
     return max(outcomes, key=badness)
 
 
-def describe(summary: Dict[str, object]) -> str:
+def describe(summary: Dict[str, Any]) -> str:
     """The summary for a reader at a terminal."""
     lines: List[str] = ["{runs} runs, {not_completed} not completed".format(**summary)]
     for name, violation in summary["violations"].items():

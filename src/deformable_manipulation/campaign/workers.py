@@ -58,7 +58,7 @@ def _in_one_pool(campaign, indices, workers) -> Iterator[RunOutcome]:
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-_campaign = None  # of this worker process
+_campaign: Campaign  # of this worker process
 
 
 def _start_worker(campaign: Campaign) -> None:

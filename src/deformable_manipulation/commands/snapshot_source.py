@@ -31,7 +31,7 @@ class SnapshotSource:
     @property
     def time_range(self) -> Tuple[float, float]:
         """The first and the last time [s] that can be shown."""
-        if self.frames is None:
+        if self.run is None:
             return 0.0, self.scenario.simulation.duration
         return self.run.time_range
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from deformable_manipulation import _distance
+from deformable_manipulation import _distance  # type: ignore[attr-defined]
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.distance.mesh_files import scaled_mesh
 from deformable_manipulation.distance.planes import PLANE_AXES

@@ -38,7 +38,7 @@ def open_bag(path: Path) -> Iterator[Tuple[Reader, Tuple[str, ...]]]:
     with contextlib.ExitStack() as stack:
         try:
             reader = stack.enter_context(Reader(path))
-            notes = ()
+            notes: Tuple[str, ...] = ()
         except DAMAGED as error:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
             copy = _reindexed_copy(path, folder, error)

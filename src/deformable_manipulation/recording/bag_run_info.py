@@ -21,7 +21,7 @@ def read_run_info(reader: Reader, namespace: str = "") -> Any:
         for connection in connections_of(reader, _STRING, namespace)
         if name_of(connection.topic) == TOPIC
     ]
-    types = get_typestore(Stores.ROS1_NOETIC)
+    types: Any = get_typestore(Stores.ROS1_NOETIC)
     for _, _, data in reader.messages(connections) if connections else ():
         return yaml.safe_load(types.deserialize_ros1(data, _STRING).data)
     return None

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 from rosbags.rosbag1 import Reader
@@ -27,7 +27,7 @@ def _distance_values(message) -> Tuple[float]:
     return (minimum[0] if len(minimum) else float("nan"),)
 
 
-_EXTRACTORS = {
+_EXTRACTORS: Dict[str, Tuple[Tuple[str, ...], Callable]] = {
     CONTROLLER_STATE: (CONTROLLER_COLUMNS, _controller_values),
     DISTANCES: (("distance",), _distance_values),
 }
@@ -83,7 +83,7 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
     received, rows, agent = [], [], ""
     try:
         for _, time, data in reader.messages(connections):
-            message = typestore.deserialize_ros1(data, msgtype)
+            message: Any = typestore.deserialize_ros1(data, msgtype)
             received.append(time)
             rows.append(_key(message) + extract(message))
         if rows and msgtype == CONTROLLER_STATE:

@@ -11,7 +11,7 @@ import math
 import numbers
 from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NoReturn, Optional, Sequence, Tuple
 
 from deformable_manipulation.scenario.errors import Problem, key_text, show
 
@@ -56,7 +56,7 @@ class Node:
         """The node of an item of this one."""
         return dataclasses.replace(self, value=value, path=self.path + (key_text(key),))
 
-    def fail(self, message: str):
+    def fail(self, message: str) -> NoReturn:
         """Report this node's value as wrong and raise Unreadable."""
         self.report.add(self.path, message, show(self.value))
         raise Unreadable
