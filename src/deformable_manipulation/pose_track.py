@@ -26,7 +26,7 @@ class PoseTrack:
     def __init__(self, timeout, min_interval):
         self._timeout = timeout
         self._estimator = VelocityEstimator(min_interval, timeout)
-        self._stamp = None  # s, of the pose; inf: it holds for ever
+        self._stamp = math.nan  # s, of the pose; inf: it holds for ever
         self._pose: Any = None  # MovingPose, once there is one
 
     def hold(self, position, orientation):

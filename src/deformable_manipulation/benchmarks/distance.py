@@ -88,7 +88,7 @@ def _meshes(request: Request) -> List[Table]:
         for case, height in HEIGHTS.items():
             body = fabric(COPIES, height=height)
             candidates = _own(obstacle, body.triangles)
-            candidates.append((FclMesh.name, FclMesh(*mesh, body.triangles)))
+            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.triangles)))
             if faces <= MOST_FOR_TRIMESH:
                 candidates.append((TrimeshVertices.name, TrimeshVertices(*mesh)))
             for name, call in candidates:

@@ -82,7 +82,13 @@ def _draw(random, low, high, speed, duration, clearance, keep) -> List[Waypoint]
         waypoints.append(Waypoint(time, tuple(place)))
         found = next_waypoint()
     waypoints.append(Waypoint(time + _travel(place, home, slowest_return), tuple(home)))
-    return [Waypoint(float(w.time), tuple(map(float, w.position))) for w in waypoints]
+    return [_plain(waypoint) for waypoint in waypoints]
+
+
+def _plain(waypoint: Waypoint) -> Waypoint:
+    """The waypoint in Python's own numbers, as a scenario file has them."""
+    x, y, z = map(float, waypoint.position)
+    return Waypoint(float(waypoint.time), (x, y, z))
 
 
 def _place(random, low, high, clearance, keep) -> np.ndarray:

@@ -143,7 +143,7 @@ class TeamController:
             text = _relaxation(slacks)
         else:
             text = status.sentence
-        return Decision(
+        return Decision(  # type: ignore[call-arg]
             status, text, self.is_enabled(name), *fields, *slacks, solve_time, computation_time
         )
 

@@ -3,7 +3,7 @@
 import io
 import re
 from pathlib import Path
-from typing import Tuple
+from typing import Any, Dict, Tuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from deformable_manipulation.text_files import TextFileError, read_bytes
 LARGEST_COORDINATE = 1e6  # m
 LARGEST_FILE = 1_000_000_000  # bytes, some million triangles in the most verbose format
 FORMATS = "OBJ, PLY, STL, OFF, glTF and GLB"
-_SETTINGS = dict(process=False, maintain_order=True, skip_materials=True)
+_SETTINGS: Dict[str, Any] = dict(process=False, maintain_order=True, skip_materials=True)
 _ZERO = re.compile(rb"[ \t]0+(?=[/\s]|$)")
 
 

@@ -95,7 +95,8 @@ class MinimumDistance:
         to a point that there is not.
         """
         points = checked_points(points)
-        return Distances(*self._native.compute(points, self._triangles), self.names)
+        arrays = self._native.compute(points, self._triangles)
+        return Distances(*arrays, self.names)  # type: ignore[call-arg]
 
 
 def checked_points(points):

@@ -76,8 +76,8 @@ def _parse_rows(text: str) -> Tuple[List[Tuple[float, float]], List[str]]:
         if not content:
             continue
         cells = [cell.strip() for cell in content.split(",")]
-        values = [_to_number(cell) for cell in cells]
-        is_header = header_possible and all(value is None for value in values)
+        numbers = [value for value in map(_to_number, cells) if value is not None]
+        is_header = header_possible and not numbers
         header_possible = False
         if len(cells) != 2:
             faults.append(
@@ -85,12 +85,12 @@ def _parse_rows(text: str) -> Tuple[List[Tuple[float, float]], List[str]]:
             )
         elif is_header:
             continue
-        elif None in values:
+        elif len(numbers) < 2:
             faults.append("line {}: '{}' are not two numbers".format(number, content[:40]))
-        elif not all(math.isfinite(value) for value in values):
+        elif not all(math.isfinite(value) for value in numbers):
             faults.append("line {}: '{}' is not finite".format(number, content[:40]))
         else:
-            points.append((values[0], values[1]))
+            points.append((numbers[0], numbers[1]))
     return points, faults
 
 

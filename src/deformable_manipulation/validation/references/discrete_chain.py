@@ -74,14 +74,19 @@ class ChainProblem:
             return angles, unknowns[free.sum() :]
 
         def residual(unknowns):
-            return self._residual(*complete(unknowns), free)
+            angles, forces = complete(unknowns)
+            return self._residual(angles, forces, free)
+
+        def derivative(unknowns):
+            angles, forces = complete(unknowns)
+            return self._derivative(angles, forces, free)
 
         closing = self._closing(guess)[:, free]
         forces = np.linalg.lstsq(closing.T, self._gradient(guess)[free], rcond=None)[0]
         solution = root(
             residual,
             np.concatenate([guess[free], forces]),
-            jac=lambda unknowns: self._derivative(*complete(unknowns), free),
+            jac=derivative,
             tol=1e-13,
         )
         total = self.weight * self.segment_length * self._count
