@@ -12,7 +12,8 @@ from deformable_manipulation.scenario.spec import FabricSpec, RodSpec, Scenario,
 def make_body(spec, simulation: SimulationSpec) -> _pbd.Body:
     """The scenario's object, undeformed and held nowhere.
 
-    Raises _pbd.ParameterError: a parameter is out of range.
+    Raises:
+        _pbd.ParameterError: a parameter is out of range.
     """
     raise TypeError("no simulation of objects of {}".format(type(spec).__name__))
 
@@ -70,9 +71,11 @@ def perturbations(scenario: Scenario):
 def make_simulation(scenario: Scenario, copies: bool = True) -> _pbd.Simulation:
     """The object, settled between the agents at their starts.
 
-    :param copies: with its perturbed copies, or without.
+    Args:
+        copies: with its perturbed copies, or without.
 
-    Raises _pbd.ParameterError: a parameter is out of range.
+    Raises:
+        _pbd.ParameterError: a parameter is out of range.
     """
     agents = [
         (agent.name, agent.particle, agent.hold, agent.start, agent.orientation)

@@ -34,15 +34,17 @@ def random_path(
 ) -> List[Waypoint]:
     """Waypoints of a path that goes from place to place near the obstacles, and back to rest.
 
-    :param low, high: (3,) corners of the box that the places are in [m], relative to the leader's
-        start at the origin.
-    :param speed: that no component of the leader's velocity exceeds [m/s].
-    :param duration: of the whole path [s], the rest at both ends included.
-    :param clearance: distances (N,) [m] of leader positions (N, 3), relative to the start, from
-        all obstacles.
-    :param keep: clearance that the leader's grip keeps [m].
+    Args:
+        low, high: (3,) corners of the box that the places are in [m], relative to the leader's
+            start at the origin.
+        speed: that no component of the leader's velocity exceeds [m/s].
+        duration: of the whole path [s], the rest at both ends included.
+        clearance: distances (N,) [m] of leader positions (N, 3), relative to the start, from all
+            obstacles.
+        keep: clearance that the leader's grip keeps [m].
 
-    Raises NoPath.
+    Raises:
+        NoPath: none was found.
     """
     times = np.linspace(0.0, duration, _SAMPLES)
     for _ in range(_ATTEMPTS):

@@ -12,7 +12,8 @@ LIMITS = ("distance", "overstretch", "proximity")
 def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any]:
     """Counts and worst values; lengths in m.
 
-    :param tolerance: [m] up to which a violation does not count.
+    Args:
+        tolerance: [m] up to which a violation does not count.
     """
     finished = [outcome for outcome in outcomes if outcome.completed]
     summary: Dict[str, Any] = {

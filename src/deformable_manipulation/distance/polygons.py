@@ -21,7 +21,9 @@ def read_ring(path) -> Ring:
     """Read and check a ring from a CSV file of two columns [m].
 
     Empty lines and what follows a ``#`` are passed over; the first other line may be a header.
-    Raises PolygonError, with line numbers where lines are wrong.
+
+    Raises:
+        PolygonError: the file cannot be used; with line numbers where lines are wrong.
     """
     try:
         text = read_text(path)
@@ -47,7 +49,8 @@ def check_ring(points: Iterable[Sequence[float]]) -> Ring:
     LARGEST_COORDINATE, or where the ring has fewer than three distinct points, no area, or crosses
     or touches itself.
 
-    :param points: pairs of coordinates [m].
+    Args:
+        points: pairs of coordinates [m].
     """
     pairs = [(float(a), float(b)) for a, b in points]
     for index, pair in enumerate(pairs):

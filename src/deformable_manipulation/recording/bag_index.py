@@ -32,7 +32,8 @@ def open_bag(path: Path) -> Iterator[Tuple[Reader, Tuple[str, ...]]]:
     A bag without a readable index is reindexed in a temporary copy, the bag itself stays as it
     is.
 
-    Raises RunDataError: no bag, or one that cannot be opened or reindexed.
+    Raises:
+        RunDataError: no bag, or one that cannot be opened or reindexed.
     """
     _check_magic(path)
     with contextlib.ExitStack() as stack:

@@ -14,7 +14,8 @@ _STRING = "std_msgs/msg/String"
 def read_run_info(reader: Reader, namespace: str = "") -> Any:
     """The content of the first ``run_info``, as of YAML; None: there is none.
 
-    Raises yaml.YAMLError, and what rosbags raises on damaged data.
+    Raises:
+        yaml.YAMLError: it is no YAML; and what rosbags raises on damaged data.
     """
     connections = [
         connection

@@ -72,8 +72,9 @@ class Track:
 def read_track(reader: Reader, topic: str) -> Optional[Track]:
     """All messages of a topic of distances or controller states; None when there is none.
 
-    Raises RunDataError: recorded with message definitions that lack a needed field; and what
-    rosbags raises on damaged data.
+    Raises:
+        RunDataError: recorded with message definitions that lack a needed field; and what rosbags
+            raises on damaged data.
     """
     connections = [connection for connection in reader.connections if connection.topic == topic]
     msgtype = connections[0].msgtype

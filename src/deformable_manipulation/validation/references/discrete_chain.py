@@ -60,7 +60,8 @@ class ChainProblem:
     def solve(self, guess: np.ndarray) -> DiscreteChain:
         """Find the equilibrium next to angles (N,) [rad].
 
-        Raises RuntimeError where there is none.
+        Raises:
+            RuntimeError: there is none.
         """
         guess = np.array(guess)
         free = np.ones(self._count, dtype=bool)
