@@ -24,8 +24,9 @@ _LAUNCH = """\
 def launch_file(scenario: Scenario, scenario_file: str, rviz_file: str) -> str:
     """The text of a launch file with the arguments of run.launch.
 
-    :param scenario: what its arguments follow from.
-    :param scenario_file: and ``rviz_file``: as the launch file finds them, with substitutions.
+    Args:
+        scenario: what its arguments follow from.
+        scenario_file: and ``rviz_file``: as the launch file finds them, with substitutions.
     """
     run = ElementTree.parse(str(package_share_directory() / "launch" / "run.launch")).getroot()
     attributes = [each.attrib for each in run.findall("arg")]

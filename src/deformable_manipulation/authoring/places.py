@@ -35,7 +35,8 @@ class Places:
 def new_places(folder: Path, name: str) -> Places:
     """Where the files of a new scenario go: side by side, or in the folders of a package's root.
 
-    Raises ValueError where the folder has a package.xml that tells no name.
+    Raises:
+        ValueError: the folder has a package.xml that tells no name.
     """
     manifest = folder / MANIFEST
     if not manifest.is_file():

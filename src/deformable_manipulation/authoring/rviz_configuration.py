@@ -119,8 +119,10 @@ _TOOLS = [
 
 
 def _scene(scenario):
-    """Corners (3,) [m] of the box of all places where agents and moving obstacles are to be, with
-    what hangs below them and the way that assistants may go up."""
+    """Corners (3,) [m] of the box of all places where agents and moving obstacles are to be.
+
+    What hangs below them and the way that assistants may go up are in it.
+    """
     starts = np.array([agent.start for agent in scenario.agents])
     path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
     agents = np.concatenate([starts + shift for shift in path])

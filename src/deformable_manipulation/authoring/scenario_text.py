@@ -20,12 +20,14 @@ def moved_text(
 ) -> str:
     """A scenario's text for another file; comments and everything else stay as they are.
 
-    :param text: content of ``source``.
-    :param target: the other file; the files that the scenario names are found from there, too.
-    :param name: of the scenario.
-    :param material: in place of that of the object, if it is given.
+    Args:
+        text: content of ``source``.
+        target: the other file; the files that the scenario names are found from there, too.
+        name: of the scenario.
+        material: in place of that of the object, if it is given.
 
-    Raises NoMaterial where there is none to replace.
+    Raises:
+        NoMaterial: there is none to replace.
     """
     found = scalars(text)
     values: Dict[KeyPath, str] = {

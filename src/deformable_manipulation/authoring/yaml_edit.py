@@ -14,7 +14,8 @@ _PLAIN = re.compile(r"[A-Za-z./_$][A-Za-z0-9./_$:+-]*[A-Za-z0-9/_]")  # needs no
 def scalars(text: str) -> Dict[KeyPath, str]:
     """The text of every plain value, by its key path; items of lists go by their index.
 
-    Raises yaml.YAMLError for text that is no YAML.
+    Raises:
+        yaml.YAMLError: the text is no YAML.
     """
     root = yaml.compose(text, Loader=yaml.SafeLoader)
     return {} if root is None else {path: node.value for path, node in _walk(root, ())}
@@ -23,7 +24,8 @@ def scalars(text: str) -> Dict[KeyPath, str]:
 def replace_scalars(text: str, values: Mapping[KeyPath, str]) -> str:
     """The YAML text with other texts for some of its plain values; paths not in it are passed over.
 
-    Raises yaml.YAMLError for text that is no YAML.
+    Raises:
+        yaml.YAMLError: the text is no YAML.
     """
     root = yaml.compose(text, Loader=yaml.SafeLoader)
     if root is None:

@@ -78,7 +78,7 @@ class Contest:
         if trial is None:
             return {"version": outcome.version, "remark": outcome.problem}
         step = median(trial.step_seconds)
-        result = {
+        result: Dict[str, Any] = {
             "version": outcome.version,
             "step_ms": 1e3 * trial.time_step,
             "median_us": 1e6 * step,

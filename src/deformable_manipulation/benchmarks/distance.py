@@ -8,7 +8,7 @@ from typing import Callable, List
 
 import numpy as np
 
-from deformable_manipulation import _distance
+from deformable_manipulation import _distance  # type: ignore[attr-defined]
 from deformable_manipulation.benchmarks.distance_cases import ball, fabric, hill, rope
 from deformable_manipulation.benchmarks.distance_rivals import (
     FclMesh,

@@ -1,5 +1,7 @@
-"""Other libraries on the same distances. Each is a callable of points (C, P, 3) that gives the
-minima (C,) [m], without a sign."""
+"""Other libraries on the same distances.
+
+Each is a callable of points (C, P, 3) that gives the minima (C,) [m], without a sign.
+"""
 
 import numpy as np
 

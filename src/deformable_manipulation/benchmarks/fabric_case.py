@@ -54,6 +54,10 @@ class FabricCase(Case):
         opposite = defaultdict(list)
         for triangle in self.triangles:
             for k in range(3):
-                edge = sorted((triangle[k], triangle[(k + 1) % 3]))
-                opposite[tuple(edge)].append(triangle[(k + 2) % 3])
-        return [(*corners, *edge) for edge, corners in opposite.items() if len(corners) == 2]
+                first, second = sorted((triangle[k], triangle[(k + 1) % 3]))
+                opposite[first, second].append(triangle[(k + 2) % 3])
+        return [
+            (corners[0], corners[1], *edge)
+            for edge, corners in opposite.items()
+            if len(corners) == 2
+        ]

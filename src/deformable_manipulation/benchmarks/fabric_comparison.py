@@ -45,7 +45,8 @@ def contest(particles: int) -> Contest:
 def error_of(trial: Trial, case: FabricCase) -> float:
     """Largest distance of a vertex from the nearest equilibrium of the mesh, over the size [1].
 
-    Raises RuntimeError where there is none near.
+    Raises:
+        RuntimeError: there is none near.
     """
     points = np.array(trial.points)
     energy = MeshEnergy(

@@ -47,7 +47,8 @@ class Timing:
     def quantile(self, fraction: float) -> float:
         """The value [s] below which a fraction of the repetitions lies, between neighbours linear.
 
-        Raises ValueError where the fraction is not within 0 and 1.
+        Raises:
+            ValueError: the fraction is not within 0 and 1.
         """
         if not 0.0 <= fraction <= 1.0:
             raise ValueError(f"fraction: {fraction}, allowed are numbers from 0 to 1")

@@ -47,7 +47,9 @@ class Report:
     def update(self, document: Path) -> None:
         """Replace the subject's section of a document, which stands between two markers.
 
-        Raises DocumentError where the markers are not there in this order, once each; OSError.
+        Raises:
+            DocumentError: the markers are not there in this order, once each.
+            OSError: the document cannot be read or written.
         """
         text = document.read_text(encoding="utf-8")
         begin, end = (f"<!-- benchmark {self.subject}: {place} -->" for place in ("begin", "end"))

@@ -34,15 +34,17 @@ def random_path(
 ) -> List[Waypoint]:
     """Waypoints of a path that goes from place to place near the obstacles, and back to rest.
 
-    :param low, high: (3,) corners of the box that the places are in [m], relative to the leader's
-        start at the origin.
-    :param speed: that no component of the leader's velocity exceeds [m/s].
-    :param duration: of the whole path [s], the rest at both ends included.
-    :param clearance: distances (N,) [m] of leader positions (N, 3), relative to the start, from
-        all obstacles.
-    :param keep: clearance that the leader's grip keeps [m].
+    Args:
+        low, high: (3,) corners of the box that the places are in [m], relative to the leader's
+            start at the origin.
+        speed: that no component of the leader's velocity exceeds [m/s].
+        duration: of the whole path [s], the rest at both ends included.
+        clearance: distances (N,) [m] of leader positions (N, 3), relative to the start, from all
+            obstacles.
+        keep: clearance that the leader's grip keeps [m].
 
-    Raises NoPath.
+    Raises:
+        NoPath: none was found.
     """
     times = np.linspace(0.0, duration, _SAMPLES)
     for _ in range(_ATTEMPTS):
@@ -82,7 +84,13 @@ def _draw(random, low, high, speed, duration, clearance, keep) -> List[Waypoint]
         waypoints.append(Waypoint(time, tuple(place)))
         found = next_waypoint()
     waypoints.append(Waypoint(time + _travel(place, home, slowest_return), tuple(home)))
-    return [Waypoint(float(w.time), tuple(map(float, w.position))) for w in waypoints]
+    return [_plain(waypoint) for waypoint in waypoints]
+
+
+def _plain(waypoint: Waypoint) -> Waypoint:
+    """The waypoint in Python's own numbers, as a scenario file has them."""
+    x, y, z = map(float, waypoint.position)
+    return Waypoint(float(waypoint.time), (x, y, z))
 
 
 def _place(random, low, high, clearance, keep) -> np.ndarray:

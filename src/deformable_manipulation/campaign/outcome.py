@@ -52,7 +52,8 @@ def assess(
 ) -> RunOutcome:
     """The :class:`RunOutcome` of a recorded run.
 
-    :param problem: why the run ended before its time, None for a whole one.
+    Args:
+        problem: why the run ended before its time, None for a whole one.
     """
     distance = series.column("distance")
     status = _of_assistants(series, "status")
@@ -85,7 +86,10 @@ def oscillation(values: np.ndarray, where: np.ndarray, rate: float) -> float:
     Each unbroken stretch of chosen samples is filtered by itself, forwards and backwards
     (Butterworth, of fourth order), so that what happens outside does not leak in.
 
-    :param values: (N,) samples; :param where: (N,) which of them count; :param rate: [Hz].
+    Args:
+        values: (N,) samples.
+        where: (N,) which of them count.
+        rate: [Hz].
     """
     shortest = int(_SHORTEST_STRETCH * rate)
     if rate <= 2.0 * OSCILLATION_FREQUENCY:

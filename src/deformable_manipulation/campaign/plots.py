@@ -22,7 +22,8 @@ _LINEAR = 10.0  # mm; beyond it an axis is logarithmic
 def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> Figure:
     """Empirical distributions over the runs; what is beyond a limit is drawn in another colour.
 
-    :param offset: distance to keep [m].
+    Args:
+        offset: distance to keep [m].
     """
     values = {
         "clearance": _finite([outcome.min_distance - offset for outcome in outcomes]),

@@ -1,19 +1,20 @@
 """A campaign in numbers, for people and programs."""
 
-from typing import Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
 from deformable_manipulation.campaign.outcome import RunOutcome
 
 
-def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, object]:
+def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any]:
     """Counts and worst values; lengths in m.
 
-    :param tolerance: [m] up to which a violation does not count.
+    Args:
+        tolerance: [m] up to which a violation does not count.
     """
     finished = [outcome for outcome in outcomes if outcome.completed]
-    summary: Dict[str, object] = {
+    summary: Dict[str, Any] = {
         "runs": len(outcomes),
         "not_completed": len(outcomes) - len(finished),
         "tolerance": tolerance,
@@ -29,7 +30,7 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, obj
     return summary
 
 
-def is_acceptable(summary: Dict[str, object]) -> bool:
+def is_acceptable(summary: Dict[str, Any]) -> bool:
     """Whether no limit was violated, no run broke down or deadlocked, no program failed."""
     return not (
         summary["not_completed"]
@@ -56,7 +57,7 @@ def worst(outcomes: Sequence[RunOutcome]) -> RunOutcome:
     return max(outcomes, key=badness)
 
 
-def describe(summary: Dict[str, object]) -> str:
+def describe(summary: Dict[str, Any]) -> str:
     """The summary for a reader at a terminal."""
     lines: List[str] = ["{runs} runs, {not_completed} not completed".format(**summary)]
     for name, violation in summary["violations"].items():

@@ -62,5 +62,5 @@ def _moved_mesh(obstacle: MeshObstacle, random: np.random.Generator) -> MeshObst
         obstacle,
         translation=tuple((np.array(obstacle.translation) + shift).tolist()),
         rotation=turned,
-        scale=tuple(size * factor for factor in obstacle.scale),
+        scale=(size * obstacle.scale[0], size * obstacle.scale[1], size * obstacle.scale[2]),
     )

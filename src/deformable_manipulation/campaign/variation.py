@@ -52,7 +52,8 @@ def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
 
     It depends on nothing else: not on who makes it, nor on the runs before.
 
-    Raises NoVariation.
+    Raises:
+        NoVariation: none was found that can be started.
     """
     reason = ""
     for attempt in range(_ATTEMPTS):

@@ -28,7 +28,8 @@ def run_here(campaign: Campaign, indices: Sequence[int], workers: int) -> Iterat
     A worker that is killed takes its pool with it: the runs that have no outcome yet are done again
     in a new one.
 
-    Raises WorkersLost.
+    Raises:
+        WorkersLost: they ended again and again.
     """
     open_runs = set(indices)
     for _ in range(_TRIES):
@@ -58,7 +59,7 @@ def _in_one_pool(campaign, indices, workers) -> Iterator[RunOutcome]:
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-_campaign = None  # of this worker process
+_campaign: Campaign  # of this worker process
 
 
 def _start_worker(campaign: Campaign) -> None:
@@ -78,7 +79,9 @@ def run_on_cluster(
     Waits for a first worker; others may come and go. Dask gives the runs of a lost worker to
     another one. The workers need this package.
 
-    Raises WorkersLost; OSError: the scheduler cannot be reached.
+    Raises:
+        WorkersLost: they ended again and again, or none came.
+        OSError: the scheduler cannot be reached.
     """
     from dask import distributed  # optional
 

@@ -49,7 +49,8 @@ def override(text: str) -> Tuple[str, str]:
 def overrides(text: str) -> List[Tuple[str, str]]:
     """Split several ``key.path=value``, separated by blanks; values may have blanks in them.
 
-    Raises argparse.ArgumentTypeError where one is not of that form.
+    Raises:
+        argparse.ArgumentTypeError: one is not of that form.
     """
     return [override(item) for item in _NEXT_KEY.split(text.strip()) if item]
 

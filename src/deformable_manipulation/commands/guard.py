@@ -36,7 +36,7 @@ def _run(name: str, arguments: Sequence[str]) -> int:
     try:
         return importlib.import_module(f"deformable_manipulation.commands.{name}").main(arguments)
     except SystemExit as stop:  # of argparse, with something printed
-        return stop.code
+        return int(stop.code or 0)
 
 
 def _discard_output() -> None:

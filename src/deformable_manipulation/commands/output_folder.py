@@ -7,7 +7,8 @@ from pathlib import Path
 def writable_folder(folder: Path) -> Path:
     """Make a folder where there is none; returns it.
 
-    Raises OSError: it is no folder, or files cannot be made in it.
+    Raises:
+        OSError: it is no folder, or files cannot be made in it.
     """
     folder.mkdir(parents=True, exist_ok=True)
     probe = folder / f".probe.{os.getpid()}"

@@ -99,7 +99,7 @@ def _draw(run: RunData, times: Optional[Sequence[float]], show: bool) -> Dict[st
     from deformable_manipulation.plots.controller_plot import plot_controller
     from deformable_manipulation.plots.overview_plot import plot_overview
 
-    figures = {}
+    figures: Dict[str, object] = {}
     for series in run.assistants:
         window = _window(f"{run.name}: {series.agent}") if show else None
         figures[f"controller_{series.agent}"] = plot_controller(run, series, window)

@@ -80,7 +80,9 @@ class SnapshotPictures:
     def take(self, times: Sequence[float], layout: str) -> None:
         """Pictures at some times [s], increasing, one each or all in one.
 
-        Raises ProgramError, OSError.
+        Raises:
+            ProgramError: a program that makes the pictures failed.
+            OSError: a picture cannot be written.
         """
         if layout == OVERLAID:
             self._save(self._overlaid(times), times, layout)

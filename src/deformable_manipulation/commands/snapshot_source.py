@@ -31,7 +31,7 @@ class SnapshotSource:
     @property
     def time_range(self) -> Tuple[float, float]:
         """The first and the last time [s] that can be shown."""
-        if self.frames is None:
+        if self.run is None:
             return 0.0, self.scenario.simulation.duration
         return self.run.time_range
 
@@ -41,8 +41,10 @@ class SnapshotSource:
         return [0.5 * sum(self.time_range)]
 
     def telling_times(self) -> List[float]:
-        """Times [s] that show what the run is about; of a scenario, which is not known yet, even
-        ones."""
+        """Times [s] that show what the run is about.
+
+        Of a scenario, whose run is not known yet, even ones.
+        """
         if self.run is None:
             return [share * self.scenario.simulation.duration for share in _EVEN]
         # Imported late: plots.
@@ -81,7 +83,8 @@ def read_source(
 ) -> SnapshotSource:
     """The scenario or run of a name or path.
 
-    Raises ScenarioError, RunDataError: it cannot be read, or cannot have such options.
+    Raises:
+        ScenarioError, RunDataError: it cannot be read, or cannot have such options.
     """
     if not _is_run(path):
         if namespace is not None:

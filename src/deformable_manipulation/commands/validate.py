@@ -4,7 +4,7 @@ import argparse
 import sys
 import time
 from pathlib import Path
-from typing import Dict, Optional, Sequence
+from typing import Any, Dict, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import command_parser, folder_name
 from deformable_manipulation.system.interruption import exit_status, interruptible
@@ -81,7 +81,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def _run_all(names: Sequence[str], quick: bool) -> Dict[str, object]:
+def _run_all(names: Sequence[str], quick: bool) -> Dict[str, Any]:
     # Imported late: SciPy and the simulation take longer to load than a wrong argument to be told.
     from deformable_manipulation.validation.cases import run_case
 

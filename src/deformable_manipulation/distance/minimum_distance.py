@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from deformable_manipulation import _distance
+from deformable_manipulation import _distance  # type: ignore[attr-defined]
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PLANE_AXES
 from deformable_manipulation.geometry.polygons import check_ring
@@ -45,7 +45,8 @@ class MinimumDistance:
         features: "local" or "elements".
         triangles: (T, 3) indices of the object's points, T >= 1; None: a polyline through them.
 
-    Raises ValueError, with all mistakes at once.
+    Raises:
+        ValueError: something is wrong; the message has all mistakes at once.
     """
 
     def __init__(self, obstacles, margin, band=0.1, features="elements", triangles=None):
@@ -77,7 +78,8 @@ class MinimumDistance:
             index: of the obstacle.
             pose: obstacle_motion.MovingPose; its velocity is told in the features.
 
-        Raises ValueError where a number is not finite or the quaternion has not the length 1.
+        Raises:
+            ValueError: a number is not finite or the quaternion has not the length 1.
         """
         self._obstacles[index].set_pose(*pose)
 
@@ -90,8 +92,9 @@ class MinimumDistance:
         Returns:
             features.Distances.
 
-        Raises ValueError where the shape is another, a point is not finite, or a triangle refers
-        to a point that there is not.
+        Raises:
+            ValueError: the shape is another, a point is not finite, or a triangle refers to a point
+                that there is not.
         """
         return self._native.compute(checked_points(points), self._triangles)
 

@@ -96,7 +96,7 @@ class ReferenceMinimumDistance:
         found = []
         for index, shape in enumerate(self._shapes):
             rows = [
-                _Row(index, vertices, *self._nearest(shape, geometry[vertices]), shape, geometry)
+                _Row(index, vertices, self._nearest(shape, geometry[vertices]), shape, geometry)
                 for vertices in elements
             ]
             rows.sort(key=lambda row: row.distance)
@@ -150,9 +150,9 @@ class ReferenceMinimumDistance:
 class _Row:
     """One feature."""
 
-    def __init__(self, obstacle, vertices, distance, weights, shape, geometry):
+    def __init__(self, obstacle, vertices, nearest, shape, geometry):
         self.obstacle, self.vertices = obstacle, vertices
-        self.distance, self.weights = distance, weights
+        self.distance, self.weights = nearest
         self._shape, self._geometry = shape, geometry
 
     @property

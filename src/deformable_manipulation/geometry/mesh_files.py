@@ -3,7 +3,7 @@
 import io
 import re
 from pathlib import Path
-from typing import Tuple
+from typing import Any, Dict, Tuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from deformable_manipulation.system.text_files import TextFileError, read_bytes
 LARGEST_COORDINATE = 1e6  # m
 LARGEST_FILE = 1_000_000_000  # bytes, some million triangles in the most verbose format
 FORMATS = "OBJ, PLY, STL, OFF, glTF and GLB"
-_SETTINGS = dict(process=False, maintain_order=True, skip_materials=True)
+_SETTINGS: Dict[str, Any] = dict(process=False, maintain_order=True, skip_materials=True)
 _ZERO = re.compile(rb"[ \t]0+(?=[/\s]|$)")
 
 
@@ -29,9 +29,10 @@ def read_mesh(path) -> Tuple[np.ndarray, np.ndarray]:
     Returns:
         vertices (V, 3) [units of the file] and triangles (T, 3), indices of vertices.
 
-    Raises MeshError, naming the file: it cannot be read, is no regular file, has more than
-    LARGEST_FILE bytes, is of no known format or broken, has no triangles (a point cloud), or has
-    coordinates that are not finite or beyond LARGEST_COORDINATE.
+    Raises:
+        MeshError: the file, which it names, cannot be read, is no regular file, has more than
+            LARGEST_FILE bytes, is of no known format or broken, has no triangles (a point cloud),
+            or has coordinates that are not finite or beyond LARGEST_COORDINATE.
     """
     try:
         data = read_bytes(path, LARGEST_FILE)
@@ -50,7 +51,8 @@ def read_mesh(path) -> Tuple[np.ndarray, np.ndarray]:
 def scaled_mesh(spec) -> Tuple[np.ndarray, np.ndarray]:
     """Vertices [m] of the obstacle's own frame, and triangles, of a scenario.spec.MeshObstacle.
 
-    Raises MeshError as read_mesh does.
+    Raises:
+        MeshError: as of read_mesh.
     """
     vertices, triangles = read_mesh(spec.mesh)
     return vertices * np.asarray(spec.scale, dtype=float), triangles

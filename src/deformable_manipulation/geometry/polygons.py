@@ -21,7 +21,9 @@ def read_ring(path) -> Ring:
     """Read and check a ring from a CSV file of two columns [m].
 
     Empty lines and what follows a ``#`` are passed over; the first other line may be a header.
-    Raises PolygonError, with line numbers where lines are wrong.
+
+    Raises:
+        PolygonError: the file cannot be used; with line numbers where lines are wrong.
     """
     try:
         text = read_text(path)
@@ -47,7 +49,8 @@ def check_ring(points: Iterable[Sequence[float]]) -> Ring:
     LARGEST_COORDINATE, or where the ring has fewer than three distinct points, no area, or crosses
     or touches itself.
 
-    :param points: pairs of coordinates [m].
+    Args:
+        points: pairs of coordinates [m].
     """
     pairs = [(float(a), float(b)) for a, b in points]
     for index, pair in enumerate(pairs):
@@ -76,8 +79,8 @@ def _parse_rows(text: str) -> Tuple[List[Tuple[float, float]], List[str]]:
         if not content:
             continue
         cells = [cell.strip() for cell in content.split(",")]
-        values = [_to_number(cell) for cell in cells]
-        is_header = header_possible and all(value is None for value in values)
+        numbers = [value for value in map(_to_number, cells) if value is not None]
+        is_header = header_possible and not numbers
         header_possible = False
         if len(cells) != 2:
             faults.append(
@@ -85,12 +88,12 @@ def _parse_rows(text: str) -> Tuple[List[Tuple[float, float]], List[str]]:
             )
         elif is_header:
             continue
-        elif None in values:
+        elif len(numbers) < 2:
             faults.append("line {}: '{}' are not two numbers".format(number, content[:40]))
-        elif not all(math.isfinite(value) for value in values):
+        elif not all(math.isfinite(value) for value in numbers):
             faults.append("line {}: '{}' is not finite".format(number, content[:40]))
         else:
-            points.append((values[0], values[1]))
+            points.append((numbers[0], numbers[1]))
     return points, faults
 
 

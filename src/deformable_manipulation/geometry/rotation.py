@@ -1,13 +1,14 @@
 """Rotations as unit quaternions (x, y, z, w), on plain tuples."""
 
 import math
+from typing import Sequence
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 
 _SMALL = 1e-4  # rad, below which series are exact to rounding
 
 
-def cross(a: Vector, b: Vector) -> Vector:
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
     """Cross product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
@@ -36,7 +37,7 @@ def conjugate(quaternion: Quaternion) -> Quaternion:
     return (-x, -y, -z, w)
 
 
-def from_vector(rotation: Vector) -> Quaternion:
+def from_vector(rotation: Sequence[float]) -> Quaternion:
     """The rotation about the direction of a vector by its length [rad]."""
     half = 0.5 * math.sqrt(sum(c * c for c in rotation))
     factor = 0.5 * (math.sin(half) / half if half > _SMALL else 1.0 - half * half / 6.0)
@@ -52,7 +53,7 @@ def to_vector(quaternion: Quaternion) -> Vector:
     return tuple(sign * factor * c for c in quaternion[:3])
 
 
-def angular_velocity(rotation: Vector, rate: Vector) -> Vector:
+def angular_velocity(rotation: Sequence[float], rate: Sequence[float]) -> Vector:
     """Angular velocity [rad/s], about fixed axes, of ``from_vector(rotation)``.
 
     ``J rate`` with the left Jacobian of SO(3),

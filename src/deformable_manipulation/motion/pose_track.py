@@ -1,6 +1,7 @@
 """An obstacle whose poses are measured."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -25,8 +26,8 @@ class PoseTrack:
     def __init__(self, timeout, min_interval):
         self._timeout = timeout
         self._estimator = VelocityEstimator(min_interval, timeout)
-        self._stamp = None  # s, of the pose; inf: it holds for ever
-        self._pose = None
+        self._stamp = math.nan  # s, of the pose; inf: it holds for ever
+        self._pose: Any = None  # MovingPose, once there is one
 
     def hold(self, position, orientation):
         """Take a pose that holds for ever."""

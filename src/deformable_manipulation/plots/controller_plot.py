@@ -105,7 +105,9 @@ def plot_controller(
 def save_figure(figure: Figure, path) -> None:
     """Write a figure in the format its name's ending tells (png, pdf, svg).
 
-    Raises OSError; ValueError: unknown format.
+    Raises:
+        OSError: the file cannot be written.
+        ValueError: unknown format.
     """
     with rc_context(STYLE):
         figure.savefig(str(path), dpi=RESOLUTION)

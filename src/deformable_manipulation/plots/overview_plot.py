@@ -36,8 +36,9 @@ def plot_overview(
 ) -> Figure:
     """Overlaid snapshots above distance, errors and margins over time.
 
-    :param times: of the snapshots [s]; None: the start, the lowest distance, the largest error, and
-        others between.
+    Args:
+        times: of the snapshots [s]; None: the start, the lowest distance, the largest error, and
+            others between.
     """
     chosen = sorted(times) if times else snapshot_times(run)
     with rc_context(STYLE):

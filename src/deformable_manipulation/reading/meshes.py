@@ -101,7 +101,7 @@ class InlineMesh:
 
 def scaled(mesh: Mesh, scale: Vector) -> Mesh:
     """The mesh of a file in m."""
-    vertices = tuple(tuple(s * c for s, c in zip(scale, vertex)) for vertex in mesh.vertices)
+    vertices = tuple((scale[0] * x, scale[1] * y, scale[2] * z) for x, y, z in mesh.vertices)
     return Mesh(vertices, mesh.triangles)
 
 

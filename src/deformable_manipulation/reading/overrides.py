@@ -55,9 +55,7 @@ def _replaced(container, path: KeyPath, depth: int, value):
                 key, nearest(key, names), ", ".join(names)
             )
         )
-    copy = dict(container)
-    copy[key] = _replaced(container.get(key, {}), path, depth + 1, value)
-    return copy
+    return {**container, key: _replaced(container.get(key, {}), path, depth + 1, value)}
 
 
 def _list_index(container: list, path: KeyPath, depth: int) -> int:

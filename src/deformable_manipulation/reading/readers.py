@@ -12,7 +12,7 @@ import math
 import numbers
 from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NoReturn, Optional, Sequence, Tuple
 
 from deformable_manipulation.reading.errors import Problem, key_text, show
 from deformable_manipulation.reading.parameter import Parameter, declared
@@ -57,7 +57,7 @@ class Node:
         """The node of an item of this one."""
         return dataclasses.replace(self, value=value, path=self.path + (key_text(key),))
 
-    def fail(self, message: str):
+    def fail(self, message: str) -> NoReturn:
         """Report this node's value as wrong and raise Unreadable."""
         self.report.add(self.path, message, show(self.value))
         raise Unreadable

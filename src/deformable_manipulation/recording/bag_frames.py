@@ -23,7 +23,8 @@ OBJECT_STATE = "deformable_manipulation/msg/ObjectState"
 def read_bag_frames(path: Path, namespace: str = "") -> Frames:
     """The frames of the last run in a bag that was recorded with ``record:=true``.
 
-    Raises RunDataError: the bag is damaged, or has no states or no description of the run.
+    Raises:
+        RunDataError: the bag is damaged, or has no states or no description of the run.
     """
     with open_bag(path) as (reader, _):
         try:

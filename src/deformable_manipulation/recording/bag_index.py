@@ -32,13 +32,14 @@ def open_bag(path: Path) -> Iterator[Tuple[Reader, Tuple[str, ...]]]:
     A bag without a readable index is reindexed in a temporary copy, the bag itself stays as it
     is.
 
-    Raises RunDataError: no bag, or one that cannot be opened or reindexed.
+    Raises:
+        RunDataError: no bag, or one that cannot be opened or reindexed.
     """
     _check_magic(path)
     with contextlib.ExitStack() as stack:
         try:
             reader = stack.enter_context(Reader(path))
-            notes = ()
+            notes: Tuple[str, ...] = ()
         except DAMAGED as error:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
             copy = _reindexed_copy(path, folder, error)

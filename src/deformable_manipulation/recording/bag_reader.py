@@ -28,8 +28,9 @@ def read_bag(path: Path, namespace: Optional[str] = None) -> RunData:
 
     Topics are found by their type; a run lasts from one reset or start to the next.
 
-    Raises RunDataError: no bag, damaged, without controller states, or with several namespaces
-    when none is given.
+    Raises:
+        RunDataError: no bag, damaged, without controller states, or with several namespaces when
+            none is given.
     """
     with open_bag(path) as (reader, notes):
         try:

@@ -14,14 +14,15 @@ _STRING = "std_msgs/msg/String"
 def read_run_info(reader: Reader, namespace: str = "") -> Any:
     """The content of the first ``run_info``, as of YAML; None: there is none.
 
-    Raises yaml.YAMLError, and what rosbags raises on damaged data.
+    Raises:
+        yaml.YAMLError: it is no YAML; and what rosbags raises on damaged data.
     """
     connections = [
         connection
         for connection in connections_of(reader, _STRING, namespace)
         if name_of(connection.topic) == TOPIC
     ]
-    types = get_typestore(Stores.ROS1_NOETIC)
+    types: Any = get_typestore(Stores.ROS1_NOETIC)
     for _, _, data in reader.messages(connections) if connections else ():
         return yaml.safe_load(types.deserialize_ros1(data, _STRING).data)
     return None

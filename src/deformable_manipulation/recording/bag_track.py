@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from rosbags.rosbag1 import Reader
@@ -38,7 +38,7 @@ def _barrier_values(message) -> Dict[str, float]:
     return {}
 
 
-_EXTRACTORS = {
+_EXTRACTORS: Dict[str, Tuple[Tuple[str, ...], Callable]] = {
     CONTROLLER_STATE: (CONTROLLER_COLUMNS, _controller_values),
     DISTANCES: (("distance",), _distance_values),
 }
@@ -83,8 +83,9 @@ class Track:
 def read_track(reader: Reader, topic: str) -> Optional[Track]:
     """All messages of a topic of distances or controller states; None when there is none.
 
-    Raises RunDataError: recorded with message definitions that lack a needed field; and what
-    rosbags raises on damaged data.
+    Raises:
+        RunDataError: recorded with message definitions that lack a needed field; and what rosbags
+            raises on damaged data.
     """
     connections = [connection for connection in reader.connections if connection.topic == topic]
     msgtype = connections[0].msgtype
@@ -94,7 +95,7 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
     received, rows, barriers, agent = [], [], [], ""
     try:
         for _, time, data in reader.messages(connections):
-            message = typestore.deserialize_ros1(data, msgtype)
+            message: Any = typestore.deserialize_ros1(data, msgtype)
             received.append(time)
             rows.append(_key(message) + extract(message))
             barriers.append(_barrier_values(message))

@@ -27,7 +27,8 @@ STATUS_SUFFIX = ".status"  # only assistants have a status
 def read_folder(folder: Path) -> RunData:
     """Read ``timeseries.csv`` of a run folder.
 
-    Raises RunDataError: it cannot be read, is cut off, or lacks columns or rows.
+    Raises:
+        RunDataError: it cannot be read, is cut off, or lacks columns or rows.
     """
     path = folder / run_files.TIMESERIES
     header, rows = _read_rows(path)

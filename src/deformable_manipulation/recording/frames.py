@@ -53,7 +53,8 @@ class Frames:
 def read_frames(run: RunData) -> Frames:
     """The frames of a run that was read by :func:`~.run_data.read_run`.
 
-    Raises RunDataError: there are none, or they cannot be read.
+    Raises:
+        RunDataError: there are none, or they cannot be read.
     """
     if run.path.is_dir():
         return _read_folder(run.path)

@@ -11,10 +11,12 @@ from deformable_manipulation.scenario.spec import PathMotion, PoseWaypoint, Scen
 
 
 def with_recorded_motion(frames: Frames) -> Scenario:
-    """The scenario of a run, where obstacles whose poses came by a topic or tf have a path: what
-    was recorded of them.
+    """The scenario of a run, where all moving obstacles have a path.
 
-    Raises RunDataError: nothing was.
+    The path of obstacles whose poses came by a topic or tf is what was recorded of them.
+
+    Raises:
+        RunDataError: nothing was.
     """
     scenario = frames.scenario
     names = names_without_path(scenario)

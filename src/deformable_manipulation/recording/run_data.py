@@ -63,7 +63,8 @@ def read_run(path, namespace: Optional[str] = None) -> RunData:
 
     ``namespace`` chooses one of several runs that were recorded side by side into one bag.
 
-    Raises RunDataError: there is no run, or it cannot be read.
+    Raises:
+        RunDataError: there is no run, or it cannot be read.
     """
     path = Path(path)
     if not os.path.exists(str(path)):  # unlike Path.exists also for names too long for any file

@@ -22,7 +22,8 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
     The files of an earlier run are removed when ``overwrite`` is set: a later interruption must
     not leave files of two runs side by side.
 
-    Raises RecordingError: the folder holds a run already, or cannot be made or changed.
+    Raises:
+        RecordingError: the folder holds a run already, or cannot be made or changed.
     """
     try:
         present = [directory / name for name in ALL if (directory / name).exists()]

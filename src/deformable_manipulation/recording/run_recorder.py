@@ -34,7 +34,8 @@ class RunRecorder:
         ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
         holds a run already.
 
-        Raises RecordingError: the folder holds a run already or cannot be written.
+        Raises:
+            RecordingError: the folder holds a run already or cannot be written.
         """
         self.directory = Path(directory)
         self._scenario = scenario
@@ -67,7 +68,8 @@ class RunRecorder:
 
         ``wall_time`` [s] of the run; ``completed``: false when it stopped before its end.
 
-        Raises RecordingError: a file cannot be written. The other files are written all the same.
+        Raises:
+            RecordingError: a file cannot be written. The other files are written all the same.
         """
         summary = summarise(self._scenario, self._series, wall_time, completed, self._safety)
         failures = []

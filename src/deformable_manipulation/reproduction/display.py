@@ -17,10 +17,13 @@ class Running(NamedTuple):
 
 
 class JobDisplay:
-    """A line for each job that is done, and what is running: on a terminal in a line that redraws
-    itself, elsewhere in a line now and then.
+    """A line for each job that is done, and what is running.
 
-    :param name: of the command; :param total: number of jobs.
+    On a terminal a line that redraws itself tells what is running, elsewhere a line now and then.
+
+    Args:
+        name: of the command.
+        total: number of jobs.
     """
 
     def __init__(self, name: str, total: int, stream: TextIO):

@@ -35,9 +35,12 @@ class Section(NamedTuple):
 def write_page(plan: Plan, path: Path, machine: Dict[str, str], elapsed: float) -> None:
     """Write the report of everything that the plan's jobs have made.
 
-    :param machine: what it was made on; :param elapsed: [s] that the jobs took.
+    Args:
+        machine: what it was made on.
+        elapsed: [s] that the jobs took.
 
-    Raises OSError: a part is missing, or the page cannot be written.
+    Raises:
+        OSError: a part is missing, or the page cannot be written.
     """
     # Imported late: needed at the end of minutes of work, checked by its own test.
     from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape

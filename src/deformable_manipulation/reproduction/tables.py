@@ -1,7 +1,7 @@
 """The report's tables, from what the runs and campaigns have recorded."""
 
 import json
-from typing import Dict, List, NamedTuple, Sequence
+from typing import Any, Dict, List, NamedTuple, Sequence
 
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.reproduction.paper import PUBLISHED
@@ -77,7 +77,7 @@ def campaign_table(plan: Plan) -> Table:
     return Table(header, rows)
 
 
-def read_summary(plan: Plan, scenario: str, variant: str) -> Dict[str, object]:
+def read_summary(plan: Plan, scenario: str, variant: str) -> Dict[str, Any]:
     """The ``summary.json`` of a run."""
     path = plan.run_folder(scenario, variant) / run_files.SUMMARY
     return json.loads(path.read_text(encoding="utf-8"))

@@ -21,7 +21,8 @@ class MessageError(ValueError):
 def points_of(state) -> np.ndarray:
     """Geometry points (C, P, 3) [m] of all copies in an ``ObjectState``.
 
-    Raises MessageError: the array's size does not fit.
+    Raises:
+        MessageError: the array's size does not fit.
     """
     return _reshaped(state.points, "points", (len(state.displaced_agents), state.point_count, 3))
 
@@ -29,7 +30,8 @@ def points_of(state) -> np.ndarray:
 def agent_order(state, scenario) -> np.ndarray:
     """Rows (A,) of the message's agents in the scenario's order.
 
-    Raises MessageError: an agent of the scenario is not in the message.
+    Raises:
+        MessageError: an agent of the scenario is not in the message.
     """
     rows = {name: row for row, name in enumerate(state.agents)}
     missing = [agent.name for agent in scenario.agents if agent.name not in rows]
@@ -51,7 +53,8 @@ def to_observation(state, distances, scenario, age=0.0) -> Observation:
     state: commands act when a cycle starts, so each whole cycle that has passed makes them late by
     one.
 
-    Raises MessageError: another frame, an array's size does not fit, or an agent is missing.
+    Raises:
+        MessageError: another frame, an array's size does not fit, or an agent is missing.
     """
     require_frame("state", state, scenario)
     order = agent_order(state, scenario)
@@ -110,7 +113,8 @@ def _sensitivities(state, order):
 def to_distances(message) -> Distances:
     """The core's result from a ``Distances`` message.
 
-    Raises MessageError: an array's size does not fit, or the message tells a fault.
+    Raises:
+        MessageError: an array's size does not fit, or the message tells a fault.
     """
     if message.fault:
         raise MessageError(message.fault)

@@ -73,7 +73,8 @@ class DistancePublisher:
     def compute(self, state):
         """What is known about the distances of an ObjectState.
 
-        Raises MessageError: its points cannot be used.
+        Raises:
+            MessageError: its points cannot be used.
         """
         try:
             return self._compute(state)

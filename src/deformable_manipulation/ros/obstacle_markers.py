@@ -44,7 +44,8 @@ def obstacle_markers(obstacles, frame, half_width=0.25, tf_prefix=""):
     Those that move are drawn in a frame of their own (:func:`obstacle_frame`), which RViz follows
     without another marker.
 
-    Raises distance.mesh_files.MeshError: a mesh file cannot be read.
+    Raises:
+        distance.mesh_files.MeshError: a mesh file cannot be read.
     """
     markers = []
     for index, obstacle in enumerate(obstacles):

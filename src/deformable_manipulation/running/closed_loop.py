@@ -1,7 +1,7 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
-from typing import Dict
+from typing import Any, Dict
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
@@ -25,7 +25,8 @@ class ClosedLoop:
     commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
     those whose poses come from a topic or from tf stand where the scenario puts them.
 
-    Raises _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
+    Raises:
+        _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
     """
 
     def __init__(self, scenario: Scenario, safety: bool = True):
@@ -56,7 +57,8 @@ class ClosedLoop:
         ``recorder`` gets a :class:`CycleRecord` per cycle; ``progress`` is called about a hundred
         times with the fraction done.
 
-        Raises _pbd.NonFiniteState: the simulation broke down; what happened is in the text.
+        Raises:
+            _pbd.NonFiniteState: the simulation broke down; what happened is in the text.
         """
         cycles = self._scenario.cycles
         report_every = max(1, cycles // _PROGRESS_REPORTS)
@@ -118,10 +120,11 @@ class ClosedLoop:
 def make_minimum_distance(scenario: Scenario):
     """The distance computation for a scenario's object and obstacles, by the chosen backend.
 
-    Raises ValueError: an obstacle's file cannot be read, or its shape is none.
+    Raises:
+        ValueError: an obstacle's file cannot be read, or its shape is none.
     """
     body, collision = scenario.object, scenario.controller.collision
-    backend = MinimumDistance
+    backend: Any = MinimumDistance
     if collision.backend == "reference":
         from deformable_manipulation.distance.reference import ReferenceMinimumDistance
 

@@ -112,7 +112,8 @@ class ImperfectKnowledge:
     def decide(self, truth: Observation) -> Dict[str, Decision]:
         """The decisions of all assistants on a state of which they get the measured poses.
 
-        :param truth: one state after the other, with the object's own distances.
+        Args:
+            truth: one state after the other, with the object's own distances.
         """
         self._filter.update(truth.time - self._delay, self._poses.measure(truth.positions))
         if truth.cycle > 0:

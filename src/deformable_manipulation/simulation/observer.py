@@ -8,9 +8,10 @@ from deformable_manipulation.scenario.spec import Scenario
 class Observer:
     """Makes the observations of a simulation, with its distances.
 
-    :param simulation: ``_pbd.Simulation``.
-    :param distance: MinimumDistance or one like it.
-    :param copies: False looks at the object itself alone, without its response to its agents.
+    Args:
+        simulation: ``_pbd.Simulation``.
+        distance: MinimumDistance or one like it.
+        copies: False looks at the object itself alone, without its response to its agents.
     """
 
     def __init__(self, scenario: Scenario, simulation, distance, copies: bool = True):

@@ -17,8 +17,9 @@ def read_text(path, largest: int = LARGEST_FILE) -> str:
 
     Devices and pipes are refused instead of read: they may have no end, or never answer.
 
-    Raises TextFileError: there is no such file, it may not be read, is no regular file, has more
-    than ``largest`` bytes, or is not UTF-8.
+    Raises:
+        TextFileError: there is no such file, it may not be read, is no regular file, has more than
+            ``largest`` bytes, or is not UTF-8.
     """
     data = read_bytes(path, largest)
     try:
@@ -39,7 +40,9 @@ def read_bytes(path, largest: int) -> bytes:
 def open_regular(path) -> Iterator[IO[bytes]]:
     """Open a regular file to read its bytes, for the time of a with statement.
 
-    Raises OSError; TextFileError: it is a device, a pipe or the like.
+    Raises:
+        OSError: it cannot be read.
+        TextFileError: it is a device, a pipe or the like.
     """
     # Opening a pipe would wait for somebody to write into it.
     with open(str(path), "rb", opener=_open_without_waiting) as file:

@@ -95,8 +95,10 @@ def at_arc_lengths(line, places):
 
 
 def sample(line, count):
-    """Points (K, 2) along a polyline and their arc lengths (K,): its own points and ``count``
-    evenly spaced ones."""
+    """Points (K, 2) along a polyline and their arc lengths (K,).
+
+    They are its own points and ``count`` evenly spaced ones.
+    """
     reached = _reached(line)
     places = np.union1d(reached, np.linspace(0.0, reached[-1], count))
     return at_arc_lengths(line, places), places

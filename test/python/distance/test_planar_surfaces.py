@@ -26,8 +26,10 @@ def surface_distances(ring, points, triangles, features="elements", band=0.2):
 
 
 def deepest(ring, corners, accuracy=1e-5):
-    """The greatest depth of a triangle (3, 2) in a polygon: it is cut into four again and again,
-    and what cannot be deeper than the best point is thrown away."""
+    """The greatest depth of a triangle (3, 2) in a polygon.
+
+    It is cut into four again and again; what cannot be deeper than the best point is thrown away.
+    """
     cells, best = np.asarray(corners, dtype=float)[None], -np.inf
     while len(cells):
         middles = cells.mean(axis=1)

@@ -1,7 +1,7 @@
-"""Two computers on one machine: this one and a network namespace, joined by a wire that delays and
-loses frames and can be cut.
+"""Two computers on one machine: this one and a network namespace.
 
-The wire is a process of ours between two veth pairs, so it works where the kernel has no netem.
+They are joined by a wire that delays and loses frames and can be cut. The wire is a process of ours
+between two veth pairs, so it works where the kernel has no netem.
 """
 
 import collections

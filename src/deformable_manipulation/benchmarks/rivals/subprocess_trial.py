@@ -39,8 +39,12 @@ def run_in(environment: Path, rival: Rival, case: Case, effort: Effort) -> Outco
     python = interpreter(environment)
     if not python.is_file():
         return Outcome(None, "", NOT_INSTALLED)
-    job = {"rival": asdict(rival), "kind": type(case).__name__, "case": asdict(case)}
-    job["effort"] = asdict(effort)
+    job = {
+        "rival": asdict(rival),
+        "kind": type(case).__name__,
+        "case": asdict(case),  # type: ignore[call-overload]  # each is a dataclass
+        "effort": asdict(effort),
+    }
     # A folder of its own: libraries leave logs where they are started.
     with tempfile.TemporaryDirectory(prefix="benchmark_") as folder:
         result = Path(folder) / "result.json"

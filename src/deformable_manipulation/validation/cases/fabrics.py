@@ -172,7 +172,8 @@ def _substeps():
         properties = FabricProperties(1.0, compliance, 1e1)
         away = []
         for count in counts:
-            away.append(_away(*_hung_cloth(properties, 0.95, count), properties))
+            mesh, held, cloth = _hung_cloth(properties, 0.95, count)
+            away.append(_away(mesh, held, cloth, properties))
         curves.append(Curve(label, [1e3 * TIME_STEP / count for count in counts], away))
         if compliance == 1e-4:
             for count, error in zip(counts, away):

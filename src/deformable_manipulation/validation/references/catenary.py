@@ -35,7 +35,9 @@ def solve_catenary(length: float, width: float, height: float = 0.0) -> Catenary
 
     From sqrt(length^2 - height^2) = 2 scale sinh(width / (2 scale)) and
     height = 2 scale sinh(width / (2 scale)) sinh((width - 2 lowest) / (2 scale)).
-    Raises ValueError where the chain does not reach.
+
+    Raises:
+        ValueError: the chain does not reach.
     """
     chord = np.hypot(width, height)
     if not (width > 0.0 and chord < length):

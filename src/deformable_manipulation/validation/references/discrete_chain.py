@@ -60,7 +60,8 @@ class ChainProblem:
     def solve(self, guess: np.ndarray) -> DiscreteChain:
         """Find the equilibrium next to angles (N,) [rad].
 
-        Raises RuntimeError where there is none.
+        Raises:
+            RuntimeError: there is none.
         """
         guess = np.array(guess)
         free = np.ones(self._count, dtype=bool)
@@ -74,14 +75,19 @@ class ChainProblem:
             return angles, unknowns[free.sum() :]
 
         def residual(unknowns):
-            return self._residual(*complete(unknowns), free)
+            angles, forces = complete(unknowns)
+            return self._residual(angles, forces, free)
+
+        def derivative(unknowns):
+            angles, forces = complete(unknowns)
+            return self._derivative(angles, forces, free)
 
         closing = self._closing(guess)[:, free]
         forces = np.linalg.lstsq(closing.T, self._gradient(guess)[free], rcond=None)[0]
         solution = root(
             residual,
             np.concatenate([guess[free], forces]),
-            jac=lambda unknowns: self._derivative(*complete(unknowns), free),
+            jac=derivative,
             tol=1e-13,
         )
         total = self.weight * self.segment_length * self._count

@@ -116,19 +116,19 @@ def solve_spans(
     last point hold. At the pins between, angle and moment are continuous. The first guess is the
     catenary, so that it is the shape next to that.
     """
-    lengths = np.asarray(lengths, dtype=float)
-    points = np.asarray(points, dtype=float)
-    loads = weight * lengths**3 / stiffness
+    spans = np.asarray(lengths, dtype=float)
+    pins = np.asarray(points, dtype=float)
+    loads = weight * spans**3 / stiffness
 
     def conditions(first, last):
         first, last = first.reshape(-1, 6), last.reshape(-1, 6)
         held = [
-            ((first[:, :2].T * lengths).T - points[:-1]).ravel(),
-            ((last[:, :2].T * lengths).T - points[1:]).ravel(),
-            [_end_condition(start, first[0], loads[0], lengths[0])],
-            [_end_condition(end, last[-1], loads[-1], lengths[-1])],
+            ((first[:, :2].T * spans).T - pins[:-1]).ravel(),
+            ((last[:, :2].T * spans).T - pins[1:]).ravel(),
+            [_end_condition(start, first[0], loads[0], spans[0])],
+            [_end_condition(end, last[-1], loads[-1], spans[-1])],
             last[:-1, 2] - first[1:, 2],
-            last[:-1, 3] / lengths[:-1] - first[1:, 3] / lengths[1:],
+            last[:-1, 3] / spans[:-1] - first[1:, 3] / spans[1:],
         ]
         return np.concatenate(held)
 
@@ -136,13 +136,13 @@ def solve_spans(
     guess = np.vstack(
         [
             _catenary_guess(here / length, there / length, load, nodes)
-            for here, there, length, load in zip(points[:-1], points[1:], lengths, loads)
+            for here, there, length, load in zip(pins[:-1], pins[1:], spans, loads)
         ]
     )
     bvp = _solve(loads, conditions, nodes, guess)
     return [
         Elastica(length, stiffness, lambda s, k=k: bvp.sol(s)[6 * k : 6 * k + 6])
-        for k, length in enumerate(lengths)
+        for k, length in enumerate(spans)
     ]
 
 

@@ -164,7 +164,7 @@ def _jumps(vertices, triangles, owners, lengths) -> sparse.csr_matrix:
             (corner,) = set(triangles[triangle].tolist()) - set(edge)
             arm = np.asarray(vertices[corner]) - start
             foot = arm @ along
-            height = np.linalg.norm(arm - foot * along)
+            height = float(np.linalg.norm(arm - foot * along))
             part = foot / lengths[row]
             for vertex, value in ((corner, 1.0), (edge[0], part - 1.0), (edge[1], -part)):
                 entries[row, vertex] = entries.get((row, vertex), 0.0) + value / height
