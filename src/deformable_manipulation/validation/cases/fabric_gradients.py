@@ -16,14 +16,14 @@ from deformable_manipulation.validation.references.mesh_equilibrium import MeshE
 from deformable_manipulation.validation.result import CaseResult, Curve, Panel, error_check
 
 TITLE = "Gradients of fabrics"
-METHOD = """A cloth of 2 m x 2 m with 15 x 15 particles and 1 kg/m^2 has the membrane stiffness E t
-and the flexural rigidity D given in the table. It hangs from its corners, which have moved
+METHOD = """A cloth of 2 m x 2 m with 15 x 15 particles and 1 kg/m^2 has the membrane stiffness E
+t and the flexural rigidity D given in the table. It hangs from its corners, which have moved
 together to 90 % of their distances. *Level* means that all are at one height, *lifted* that the
-displaced one is 0.3 m higher. Copies displace this corner along each axis to both sides and settle.
-Central differences show how the height of each vertex changes with the corner's position. Theory:
-implicit differentiation of the equilibrium nearest to the settled shape, for the energy of the mesh
-implemented independently in Python. The error is the largest of any vertex: the norm of the
-difference of the two gradients, which are themselves up to 1.
+displaced one is 0.3 m higher. Copies displace this corner along each axis to both sides and
+settle. Central differences show how the height of each vertex changes with the corner's
+position. Theory: implicit differentiation of the equilibrium nearest to the settled shape, for
+the energy of the mesh implemented independently in Python. The error is the largest of any
+vertex: the norm of the difference of the two gradients, which are themselves up to 1.
 
 The table compares displacements of 5 mm. The figure shows other displacements, with the larger
 error of both shapes. Stiff or limp cloths have folds that snap within a displacement of some

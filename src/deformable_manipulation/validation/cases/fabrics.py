@@ -23,22 +23,22 @@ from deformable_manipulation.validation.result import (
 )
 
 TITLE = "Fabrics"
-METHOD = """*Strip*: a strip of 1 m x 0.1 m hangs from its upper edge, in 20 or 40 rows of one cell.
-Its extension is compared with that of its vertical springs in series, each loaded by the rows
-below it. Parallel diagonals couple stretching with shearing, and the weight resists shearing. The
-strip therefore leans and stretches a little less.
+METHOD = """*Strip*: a strip of 1 m x 0.1 m hangs from its upper edge, in 20 or 40 rows of one
+cell. Its extension is compared with that of its vertical springs in series, each loaded by the
+rows below it. Parallel diagonals couple stretching with shearing, and the weight resists
+shearing. The strip therefore leans and stretches a little less.
 
 *Cloth*: a cloth of 2 m x 2 m with 15 x 15 particles and 1 kg/m^2 or 0.3 kg/m^2 is held at its
 corners, which move together to a part of their distances. Membrane stiffness E t and flexural
 rigidity D are given in the table; substeps are 1 ms. Slack cloth has many equilibria, so the
 settled shape is compared with the nearest one. Newton's method finds it by minimising the energy
-of the mesh, implemented independently in Python, from the settled shape. The error is the largest
-displacement of a particle over the size of 2 m. The forces at the corners must sum to the weight.
-*Carried*: the same cloth carried at 0.1 m/s for 10 s.
+of the mesh, implemented independently in Python, from the settled shape. The error is the
+largest displacement of a particle over the size of 2 m. The forces at the corners must sum to
+the weight. *Carried*: the same cloth carried at 0.1 m/s for 10 s.
 
 *Cantilever* (Peirce's test): the first two rows of particles of a strip of 0.3 m are held, which
-clamps it midway between them. Theory: the elastica with rigidity D per width. At a load
-rho g L^3 / D of 8 its chord droops by 41.5 degrees and L is twice the bending length. Substeps are
+clamps it midway between them. Theory: the elastica with rigidity D per width. At a load rho g
+L^3 / D of 8 its chord droops by 41.5 degrees and L is twice the bending length. Substeps are
 0.25 ms. The triangles of the strip have mirrored diagonals.
 
 *Substeps*: the cloth of E t 10 kN/m. With substeps of 1 ms and less its shape must be the
