@@ -6,10 +6,7 @@ from pathlib import Path
 from typing import Dict, List, Sequence
 
 from deformable_manipulation.benchmarks.table import Table
-
-
-class DocumentError(ValueError):
-    """A document has no place for the section."""
+from deformable_manipulation.figures.block import Provenance, write_block
 
 
 @dataclass
@@ -44,17 +41,11 @@ class Report:
             (folder / name).write_text(text, encoding="utf-8")
         return [folder / name for name in texts]
 
-    def update(self, document: Path) -> None:
-        """Replace the subject's section of a document, which stands between two markers.
+    def update(self, document: Path, provenance: Provenance) -> None:
+        """Replace the subject's block of a document.
 
         Raises:
-            DocumentError: the markers are not there in this order, once each.
-            OSError: the document cannot be read or written.
+            BlockError: the document has no such block, or is not well-formed.
+            OSError: it cannot be read or written.
         """
-        text = document.read_text(encoding="utf-8")
-        begin, end = (f"<!-- benchmark {self.subject}: {place} -->" for place in ("begin", "end"))
-        start, stop = text.find(begin), text.find(end)
-        if text.count(begin) != 1 or text.count(end) != 1 or stop < start:
-            raise DocumentError(f"{document}: needs the lines {begin} and {end}, once each")
-        head, tail = text[: start + len(begin)], text[stop:]
-        document.write_text(f"{head}\n\n{self.markdown()}\n{tail}", encoding="utf-8")
+        write_block(document, f"benchmark_{self.subject}", self.markdown(), provenance)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Optional, Sequence
 
 from deformable_manipulation.benchmarks.machine import describe_machine, load, load_warning
-from deformable_manipulation.benchmarks.report import DocumentError, Report
+from deformable_manipulation.benchmarks.report import Report
 from deformable_manipulation.benchmarks.rivals.environment import (
     checkout,
     default_environment,
@@ -15,6 +15,8 @@ from deformable_manipulation.benchmarks.rivals.environment import (
 from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
 from deformable_manipulation.commands.arguments import folder_name
 from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.figures.block import BlockError
+from deformable_manipulation.figures.present import present_origin
 from deformable_manipulation.system.interruption import exit_status, interruptible
 
 NAME = "benchmark"
@@ -40,7 +42,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
                 install(arguments.rivals)
             if arguments.subject:
                 _measure(arguments)
-        except (DocumentError, RuntimeError) as error:
+        except (BlockError, RuntimeError) as error:
             # RuntimeError: no environment, or a simulation that broke down.
             return fail(NAME, str(error))
         except OSError as error:
@@ -106,7 +108,8 @@ def _measure(arguments: argparse.Namespace) -> None:
         for path in report.write(arguments.output):
             print(path)
     if arguments.update_docs:
-        report.update(arguments.update_docs)
+        command = f"scripts/benchmark {arguments.subject} --update-docs"
+        report.update(arguments.update_docs, present_origin(checkout(), command))
         print(arguments.update_docs)
 
 

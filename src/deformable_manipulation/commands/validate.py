@@ -98,6 +98,8 @@ def _run_all(names: Sequence[str], quick: bool) -> Dict[str, Any]:
 
 
 def _write(results, folder: Path) -> Path:
+    from deformable_manipulation.benchmarks.rivals.environment import checkout
+    from deformable_manipulation.figures.present import present_origin
     from deformable_manipulation.validation.figures import draw, save
     from deformable_manipulation.validation.report import report
 
@@ -108,5 +110,6 @@ def _write(results, folder: Path) -> Path:
             links[name] = f"{IMAGES}/validation_{name}.png"
             save(draw(result), folder / links[name])
     path = folder / PAGE
-    path.write_text(report(results, links), encoding="utf-8")
+    origin = present_origin(checkout(), "scripts/validate")
+    path.write_text(report(results, links, origin), encoding="utf-8")
     return path

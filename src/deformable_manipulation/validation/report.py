@@ -2,44 +2,49 @@
 
 from typing import Dict, List, Sequence
 
+from deformable_manipulation.figures.block import Provenance, render_block
 from deformable_manipulation.validation.result import CaseResult, Check
 
 HEADER = "| {} | theory | measured | error | tolerance | pass |\n|---|---|---|---|---|---|"
 INTRODUCTION = """# Validation
 
-The simulated rod and fabric against solutions of their theory that are computed independently, with
-SciPy (`src/deformable_manipulation/validation/references/`): the catenary, the elastica and the
-Kirchhoff rod as boundary value problems, small vibration by Rayleigh-Ritz, large swings by
-Galerkin's method, and the exact equilibrium of rigid segments and of meshes. Written by
+This page compares the simulated rod and fabric with solutions of their theory. The solutions are
+computed independently, with SciPy (`src/deformable_manipulation/validation/references/`). They are
+the catenary, the elastica and the Kirchhoff rod as boundary value problems, small vibration by the
+Rayleigh-Ritz method, large swings by Galerkin's method, and the exact equilibrium of rigid segments
+and of meshes. This command writes the page:
 
 ```
 scripts/validate
 ```
 
-which exits with an error where a case misses its tolerance; `--help` tells more. The rod is the
-paper's, 2.25 m long, of radius 3.5 mm and 1792.89 kg/m^3, in steps of 10 ms with 2 substeps and the
-direct solver, where nothing else is said. Percentages of L are of its length."""
+It exits with an error if a case misses its tolerance. `--help` lists its options. Unless stated
+otherwise, the rod is the one of the paper: 2.25 m long, with a radius of 3.5 mm and a density of
+1792.89 kg/m^3. It is simulated in steps of 10 ms with 2 substeps and the direct solver.
+Percentages of L are of its length."""
 ALL_PASS = "All {} comparisons are within their tolerance."
 SOME_FAIL = "**{} of {} comparisons miss their tolerance.**"
-SUMMARY_NOTE = """Of each kind of quantity, the comparison that comes nearest to its tolerance, and
-how many there are; all are listed below."""
+SUMMARY_NOTE = """The table shows, for each kind of quantity, the comparison that comes closest to
+its tolerance, and the number of comparisons. The sections below list all of them."""
 
 
-def report(cases: Dict[str, CaseResult], images: Dict[str, str]) -> str:
+def report(cases: Dict[str, CaseResult], images: Dict[str, str], provenance: Provenance) -> str:
     """Write the page: a summary of all cases, then every case with its figure and its table.
 
     images: link of the figure by name of the case, where it has one.
+    provenance: of all numbers, which stand in a block.
     """
     checks = [check for case in cases.values() for check in case.checks]
     missed = sum(not check.passed for check in checks)
     verdict = SOME_FAIL.format(missed, len(checks)) if missed else ALL_PASS.format(len(checks))
-    parts = [INTRODUCTION, "## Summary", verdict, SUMMARY_NOTE, _summary(cases)]
+    parts = ["## Summary", verdict, SUMMARY_NOTE, _summary(cases)]
     for name, case in cases.items():
         parts += [f"## {case.title}", case.method]
         if name in images:
             parts.append(f"![{case.title}]({images[name]})")
         parts.append(_table("quantity", case.checks))
-    return "\n\n".join(parts) + "\n"
+    numbers = render_block("validation", "\n\n".join(parts), provenance)
+    return f"{INTRODUCTION}\n\n{numbers}\n"
 
 
 def _summary(cases: Dict[str, CaseResult]) -> str:

@@ -124,15 +124,14 @@ def test_cycle_end_to_end(tmp_path):
 def test_the_page_has_a_place_for_every_subject():
     text = DOCUMENT.read_text(encoding="utf-8")
     for subject in SUBJECTS:
-        for place in ("begin", "end"):
-            assert text.count(f"<!-- benchmark {subject}: {place} -->") == 1
+        assert text.count(f"<!-- figures: benchmark_{subject} ") == 1
 
 
 def test_a_page_without_a_place_is_an_error(tmp_path, capsys):
     page = tmp_path / "page.md"
     page.write_text("# Page\n")
     assert main(["qp", "--quick", "--update-docs", str(page)]) == 1
-    assert "benchmark qp: begin" in capsys.readouterr().err
+    assert "figures: benchmark_qp" in capsys.readouterr().err
     assert page.read_text() == "# Page\n"
 
 

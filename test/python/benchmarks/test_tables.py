@@ -6,11 +6,13 @@ import json
 
 import pytest
 
-from deformable_manipulation.benchmarks.report import DocumentError, Report
+from deformable_manipulation.benchmarks.report import Report
 from deformable_manipulation.benchmarks.table import EMPTY, Column, Table
+from deformable_manipulation.figures.block import BlockError, Provenance, read_blocks
 
 COLUMNS = (Column("name", "library"), Column("time", "time [µs]", ".1f"), Column("n", "n", "d"))
-BEGIN, END = "<!-- benchmark rod: begin -->", "<!-- benchmark rod: end -->"
+BEGIN, END = "<!-- figures: benchmark_rod -->", "<!-- end -->"
+ORIGIN = Provenance("scripts/benchmark rod", "a processor, 2 cores", "0123456789ab", "2026-01-31")
 
 
 @pytest.fixture
@@ -75,11 +77,13 @@ def test_files(report, tmp_path):
 def test_a_section_of_a_document_is_replaced_and_nothing_else(report, tmp_path):
     document = tmp_path / "page.md"
     document.write_text(f"# Page\n\n{BEGIN}\nold table\n{END}\n\nlast words\n")
-    report.update(document)
+    report.update(document, ORIGIN)
     once = document.read_text()
-    assert once.startswith(f"# Page\n\n{BEGIN}\n") and once.endswith(f"{END}\n\nlast words\n")
+    assert once.startswith("# Page\n\n<!-- figures: benchmark_rod (scripts/benchmark rod; ")
+    assert once.endswith(f"{END}\n\nlast words\n")
     assert "old table" not in once and report.markdown() in once
-    report.update(document)
+    assert read_blocks(document)[0].provenance == ORIGIN
+    report.update(document, ORIGIN)
     assert document.read_text() == once
 
 
@@ -89,6 +93,6 @@ def test_a_section_of_a_document_is_replaced_and_nothing_else(report, tmp_path):
 def test_a_document_without_a_place_stays_as_it_is(report, tmp_path, text):
     document = tmp_path / "page.md"
     document.write_text(text)
-    with pytest.raises(DocumentError, match="benchmark rod: begin"):
-        report.update(document)
+    with pytest.raises(BlockError, match="page.md"):
+        report.update(document, ORIGIN)
     assert document.read_text() == text

@@ -73,7 +73,7 @@ def test_unknown_materials_are_told_with_all_other_mistakes(
 def rows():
     """Rows of the page's tables: material -> cells."""
     page = (package_share_directory() / "docs" / "materials.md").read_text(encoding="utf-8")
-    page = page.split("### Which are carried well")[0]
+    page = page.split("### How well they are carried")[0]
     lines = [line.strip("|\n").split("|") for line in page.splitlines() if line[:3] == "| `"]
     return {cells[0].strip(" `"): [cell.strip() for cell in cells[1:]] for cells in lines}
 

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from deformable_manipulation.commands import validate
+from deformable_manipulation.figures.block import Provenance
 from deformable_manipulation.validation import cases
 from deformable_manipulation.validation.figures import draw
 from deformable_manipulation.validation.report import report
@@ -17,6 +18,8 @@ from deformable_manipulation.validation.result import (
     refined,
     relative_check,
 )
+
+ORIGIN = Provenance("scripts/validate", "a processor, 2 cores", "0123456789ab", "2026-01-31")
 
 
 def case(*checks, **options):
@@ -54,7 +57,7 @@ class TestCheck:
 
 class TestReport:
     def test_summary_has_the_worst_of_each_kind(self):
-        page = report({"one": case(GOOD, NEARER)}, {})
+        page = report({"one": case(GOOD, NEARER)}, {}, ORIGIN)
         summary = page.split("## A case")[0]
         assert "All 2 comparisons are within" in summary
         assert (
@@ -64,7 +67,7 @@ class TestReport:
         assert "| drop, 28 segments |" in page
 
     def test_tells_what_misses(self):
-        page = report({"one": case(GOOD, BAD)}, {"one": "images/one.png"})
+        page = report({"one": case(GOOD, BAD)}, {"one": "images/one.png"}, ORIGIN)
         assert "**1 of 2 comparisons miss" in page
         assert "| deviation |  | 0.3 % | 0.3 % | 0.2 % | **no** |" in page
         assert "![A case](images/one.png)" in page

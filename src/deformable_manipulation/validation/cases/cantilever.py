@@ -21,11 +21,11 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "Cantilever over the whole range of stiffness"
-METHOD = """One end is clamped level, the other is free; the free length is L - l/2 with the
-segment length l, as the clamp is at the centre of the first segment. E is chosen for a
-dimensionless weight w L^3 / (E I) from 0.01 (a beam: the tip drops by w L^4 / (8 E I)) to 1000
-(hangs down but for a bend at the clamp). Theory: the elastica. The stiff rod (E 30 GPa) lies at
-about 2.1."""
+METHOD = """One end is clamped level and the other is free. The clamp is at the centre of the
+first segment, so the free length is L - l/2 with the segment length l. E is chosen to give a
+dimensionless weight w L^3 / (E I) from 0.01 (a beam whose tip drops by w L^4 / (8 E I)) to 1000
+(it hangs straight down except for a bend at the clamp). Theory: the elastica. The stiff rod (E
+30 GPa) has a weight of about 2.1."""
 SEGMENTS = (28, 45, 100)
 LOADS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 QUICK_LOADS = (0.1, 10.0, 1000.0)

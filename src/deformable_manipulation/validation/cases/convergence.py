@@ -26,18 +26,18 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "Convergence and settling"
-METHOD = """*Error at rest* of the rope clamped level, 1.5 m apart (largest deviation / L), and
-of the cantilever of E 30 GPa (tip drop), against the elastica. The direct solver's fixed point
-is the equilibrium of the segments, so its error must not depend on the substeps (the table has
-the spread over 1 to 10 per 10 ms), and must fall with the square of the segment length (the
-table has the order between 28 and 200 segments). Gauss-Seidel softens the rod the more the
-larger the substep and the finer the rod: it must reach the direct solver's error for the rope of
-28 segments from 5 substeps on, and for 45 from 20; for the stiff rod it is shown without a
-tolerance, as the reason why it is not the default.
+METHOD = """*Error at rest* compares the rope, clamped level at a span of 1.5 m (largest
+deviation / L), and the cantilever of E 30 GPa (tip drop) with the elastica. The fixed point of
+the direct solver is the equilibrium of the segments. Its error must not depend on the number of
+substeps (the table has the spread over 1 to 10 per 10 ms), and must fall with the square of the
+segment length (the table has the order between 28 and 200 segments). Gauss-Seidel softens the
+rod, more so with larger substeps and finer rods. It must reach the direct solver's error from 5
+substeps on with 28 segments, and from 20 with 45. For the stiff rod it is shown without a
+tolerance; this is why it is not the default.
 
-*Settling*: simulated time, and its substeps, from the first guess of the shape (the stiff
-cantilever: straight) until all joints stay within 0.1 % of L from where they end; substep 10 ms,
-damping 10 /s."""
+*Settling* is the simulated time, and the number of substeps, from the first guess of the shape
+(a straight line for the stiff cantilever) until all joints stay within 0.1 % of L of their final
+places. The substep is 10 ms and the damping 10 /s."""
 SEGMENTS = (28, 45, 100, 200)
 SUBSTEPS = (1, 2, 5, 10)
 GAUSS_SEIDEL_SUBSTEPS = (1, 2, 5, 10, 20)

@@ -16,18 +16,19 @@ from deformable_manipulation.validation.references.mesh_equilibrium import MeshE
 from deformable_manipulation.validation.result import CaseResult, Curve, Panel, error_check
 
 TITLE = "Gradients of fabrics"
-METHOD = """A cloth of 2 m x 2 m, 15 x 15 particles, 1 kg/m^2, membrane stiffness E t and flexural
-rigidity D as given, hangs from its corners, which have come together to 90 % of their distances:
-all *level*, or the one displaced *lifted* by 0.3 m. Copies displace this corner along each axis to
-both sides, and settle; central differences tell how the height of each vertex changes with the
-corner's position. Theory: implicit differentiation of the equilibrium of the mesh that the energy
-written anew in Python has nearest to the settled shape. The error is the largest of a vertex, the
-norm of the difference of the two gradients; those themselves are up to 1.
+METHOD = """A cloth of 2 m x 2 m with 15 x 15 particles and 1 kg/m^2 has the membrane stiffness E
+t and the flexural rigidity D given in the table. It hangs from its corners, which have moved
+together to 90 % of their distances. *Level* means that all are at one height, *lifted* that the
+displaced one is 0.3 m higher. Copies displace this corner along each axis to both sides and
+settle. Central differences show how the height of each vertex changes with the corner's
+position. Theory: implicit differentiation of the equilibrium nearest to the settled shape, for
+the energy of the mesh implemented independently in Python. The error is the largest of any
+vertex: the norm of the difference of the two gradients, which are themselves up to 1.
 
-Compared are displacements of 5 mm; the figure shows others, the larger error of both shapes. Stiff
-or limp cloths have folds that snap within a displacement of some centimetres: the copies then tell
-the mean change over the snap, which the derivative does not foretell. Below 2 mm what is left of
-the motion counts, to which a fabric settles."""
+The table compares displacements of 5 mm. The figure shows other displacements, with the larger
+error of both shapes. Stiff or limp cloths have folds that snap within a displacement of some
+centimetres. The copies then give the mean change over the snap, which the derivative cannot
+predict. Below 2 mm the remaining motion of the settled fabric dominates."""
 SIZE = 2.0  # m
 PARTICLES = (15, 15)
 CLOTHS = {

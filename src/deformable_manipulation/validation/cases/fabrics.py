@@ -23,27 +23,28 @@ from deformable_manipulation.validation.result import (
 )
 
 TITLE = "Fabrics"
-METHOD = """*Strip*: 1 m x 0.1 m hangs from its upper edge, in 20 or 40 rows of one cell; its
-extension against that of its vertical springs in series, each row loaded by all below it.
-Parallel diagonals tie stretching to shearing, and the weight resists that: the strip leans and
-stretches a little less.
+METHOD = """*Strip*: a strip of 1 m x 0.1 m hangs from its upper edge, in 20 or 40 rows of one
+cell. Its extension is compared with that of its vertical springs in series, each loaded by the
+rows below it. Parallel diagonals couple stretching with shearing, and the weight resists
+shearing. The strip therefore leans and stretches a little less.
 
-*Cloth*: 2 m x 2 m, 15 x 15 particles, 1 kg/m^2 or 0.3 kg/m^2, held at its corners, which come
-together to a part of their distances; membrane stiffness E t and flexural rigidity D as given,
-substeps of 1 ms. Slack cloth has many equilibria, so the settled shape is held against the
-nearest one: from it the energy of the mesh, written anew in Python, is minimised by Newton's
-method, and the largest way of a particle counts, over the size of 2 m. The forces at the corners
-sum to the weight. *Carried*: the same for 10 s at 0.1 m/s.
+*Cloth*: a cloth of 2 m x 2 m with 15 x 15 particles and 1 kg/m^2 or 0.3 kg/m^2 is held at its
+corners, which move together to a part of their distances. Membrane stiffness E t and flexural
+rigidity D are given in the table; substeps are 1 ms. Slack cloth has many equilibria, so the
+settled shape is compared with the nearest one. Newton's method finds it by minimising the energy
+of the mesh, implemented independently in Python, from the settled shape. The error is the
+largest displacement of a particle over the size of 2 m. The forces at the corners must sum to
+the weight. *Carried*: the same cloth carried at 0.1 m/s for 10 s.
 
-*Cantilever* (Peirce's test): a strip of 0.3 m, the first two rows of particles held, which clamps
-it midway between them; theory: the elastica of rigidity D per width. At a load rho g L^3 / D of 8
-its chord droops by 41.5 degrees and L is twice the bending length. Substeps of 0.25 ms. The
-strip's triangles have mirrored diagonals.
+*Cantilever* (Peirce's test): the first two rows of particles of a strip of 0.3 m are held, which
+clamps it midway between them. Theory: the elastica with rigidity D per width. At a load rho g
+L^3 / D of 8 its chord droops by 41.5 degrees and L is twice the bending length. Substeps are
+0.25 ms. The triangles of the strip have mirrored diagonals.
 
-*Substeps*: the cloth of E t 10 kN/m. With substeps of 1 ms and less its shape must be that of the
-equilibrium; those of 2 ms do not resolve its edges, which rest as softer ones. With an E t of
-100 kN/m, which substeps of 1 ms do not resolve either, the deviation is shown without a tolerance
-of its own, but must fall with the substep."""
+*Substeps*: the cloth of E t 10 kN/m. With substeps of 1 ms and less its shape must be the
+equilibrium. Substeps of 2 ms do not resolve its edges, which rest as softer ones. With an E t of
+100 kN/m, substeps of 1 ms do not resolve them either. There the deviation is shown without a
+tolerance of its own, but it must fall with the substep."""
 SIZE = 2.0  # m
 PARTICLES = (15, 15)
 CLOTHS = {  # properties, part of the corners' distances

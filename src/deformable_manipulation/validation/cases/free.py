@@ -19,15 +19,15 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "Free rod"
-METHOD = """*Fall*: a rope held nowhere falls for 1 s, with the default damping of 10 /s, which
-acts on motion relative to the rod's own rigid motion and must not slow it. Theory: g t and g t^2
-/ 2. The integration (implicit Euler) is of first order: its path is g t (t + h) / 2 with the
-substep h, so the tolerance of the path is 1.1 h / t. *Flight*: the stiff rod without gravity is
-held at a quarter, moved and spun up to 2 rad/s, let go, and flies for 3 s; the linear and the
-angular momentum about the fixed origin must stay what they were, damped or not. Implicit Euler
-takes omega^2 h / 2 per second from a rotation omega, so the tolerance of the angular momentum is
-1.5 times that, and that of the linear momentum rounding. The error is the norm of the change
-over the norm."""
+METHOD = """*Fall*: a rope that is held nowhere falls for 1 s with the default damping of 10 /s.
+Damping acts on motion relative to the rod's own rigid motion and must not slow the fall. Theory:
+g t and g t^2 / 2. The integration (implicit Euler) is of first order and gives a path of g t (t
++ h) / 2 with the substep h, so the tolerance of the path is 1.1 h / t. *Flight*: the stiff rod,
+without gravity, is held at a quarter of its length, moved and spun up to 2 rad/s, and released.
+It flies for 3 s. Its linear momentum and its angular momentum about the fixed origin must not
+change, damped or not. Implicit Euler removes omega^2 h / 2 per second from a rotation omega. The
+tolerance of the angular momentum is 1.5 times that; the tolerance of the linear momentum is
+rounding. The error is the norm of the change over the norm."""
 SUBSTEPS = (1, 2, 10)
 FALL_TIME = 1.0  # s
 FLIGHT_TIME = 3.0  # s

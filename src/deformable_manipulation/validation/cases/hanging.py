@@ -19,13 +19,13 @@ from deformable_manipulation.validation.result import (
 from deformable_manipulation.validation.rod import ROPE, hang, joint_arc_lengths
 
 TITLE = "Rope held at both ends"
-METHOD = """The paper's rope (E 30 MPa) hangs between two grips, 1.5 m apart at one height, or
-1.3 m apart with one 0.6 m higher. Theory: the elastica, from grip to grip with the free length L
-(N-1)/N; a pinned grip carries the weight of the half segment beyond it. The deviation is the
-largest distance between a joint of the simulated rod and the point of the elastica at the same
-arc length. *Theory* of a deviation is what N rigid segments have at best: their energy made
-stationary by Newton's method. A clamped grip keeps half a segment straight, which is most of
-that deviation."""
+METHOD = """The paper's rope (E 30 MPa) hangs between two grips, either 1.5 m apart at the same
+height or 1.3 m apart with one 0.6 m higher. Theory: the elastica from grip to grip with the free
+length L (N-1)/N. A pinned grip carries the weight of the half segment beyond it. The deviation
+is the largest distance between a joint of the simulated rod and the point of the elastica at the
+same arc length. The *theory* of a deviation is the best that N rigid segments can reach:
+Newton's method makes their energy stationary. A clamped grip keeps half a segment straight,
+which causes most of that deviation."""
 CHORDS = {"level": (1.5, 0.0), "not level": (1.3, 0.6)}  # m
 SEGMENTS = (28, 45, 100)
 TIMES_REACHABLE = 1.2

@@ -22,15 +22,16 @@ from deformable_manipulation.validation.result import (
 from deformable_manipulation.validation.rod import ROPE, STIFF_ROD, make_rod, pitched, settle
 
 TITLE = "Several held points"
-METHOD = """*Four grips*: the rope hangs from its ends and from two points between, at different
-heights. Clamped, every span is an elastica of its own; pinned, angle and moment go on through a
-pin, and the spans are one boundary value problem. *Adjacent grips*: two neighbouring segments in
-the middle are clamped in line besides both ends; the spans on either side are elasticas again.
-*Clamped over two segments*: the first two segments of a stiff rod are held; it droops as a
-cantilever whose clamp is at the centre of the second, and the first grip carries its own segment
-alone. Deviations are those of the joints, forces those of the grips (of neighbours together),
-compared with the ends of the spans; *theory* of both is, as above, what N rigid segments held in
-the same way have at best, by their stationary energy."""
+METHOD = """*Four grips*: the rope hangs from its ends and from two points between them, at
+different heights. With clamped grips, every span is a separate elastica. With pinned grips,
+angle and moment are continuous across a pin, and the spans form one boundary value problem.
+*Adjacent grips*: two neighbouring segments in the middle are clamped in line, in addition to
+both ends. The spans on either side are elasticas again. *Clamped over two segments*: the first
+two segments of a stiff rod are held. It droops as a cantilever whose clamp is at the centre of
+the second segment, and the first grip carries only its own segment. Deviations are those of the
+joints. Forces are those of the grips (of neighbours together) and are compared with the ends of
+the spans. The *theory* of both is again the best that N rigid segments held in the same way can
+reach."""
 SEGMENTS = (28, 100)
 # Places of the grips, x and z [m].
 FOUR_POINTS = np.array([[0.0, 0.0], [0.5, 0.1], [1.1, -0.1], [1.6, 0.05]])

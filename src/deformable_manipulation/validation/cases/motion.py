@@ -27,19 +27,20 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "Damping and time"
-METHOD = """Damping takes c from every velocity per second, so that an oscillation decays at c /
-2; the integration, implicit Euler, adds omega^2 h / 2 with the substep h. Lengths are chosen so
-that the free length is 2.2 m whatever the number of segments. *Ring-down*: a clamped rod of E 30
-GPa, c = 0.5 /s, is let go straight under 0.02 m/s^2; a damped cosine is fitted to its projection
-on the first mode. Theory: the frequency 1.8751^2 sqrt(E I / (rho A L^4)) of a clamped beam, with
-damping, and the decay c / 2 + omega^2 h / 2. *Swing*: the rope is pinned at its end and let go,
-straight, 0.5 rad beside the vertical, c = 0.5 /s. Theory: the continuous rope's motion by
-Galerkin's method; the error is the largest distance of the free end over 3 s, over the length.
-It is the time step's: the same for all numbers of segments and proportional to h. With so little
-damping one substep of 10 ms is at the limit of what the direct solver can take (the joints of 24
-to 30 segments open by some percent), so the swing is compared from two on. *Carried*: the rope
-held at both ends 1.5 m apart is carried at 0.1 m/s along, across, and up, with the default
-damping: largest distance from its shape at rest after 5 s."""
+METHOD = """Damping removes c times the velocity per second, so an oscillation decays at c / 2.
+The integration, implicit Euler, adds omega^2 h / 2 with the substep h. Lengths are chosen to
+give a free length of 2.2 m for every number of segments. *Ring-down*: a clamped rod of E 30 GPa
+with c = 0.5 /s is released from straight under 0.02 m/s^2. A damped cosine is fitted to its
+projection on the first mode. Theory: the frequency 1.8751^2 sqrt(E I / (rho A L^4)) of a clamped
+beam, with damping, and the decay c / 2 + omega^2 h / 2. *Swing*: the rope is pinned at its end
+and released from straight, 0.5 rad from the vertical, with c = 0.5 /s. Theory: the motion of the
+continuous rope by Galerkin's method. The error is the largest distance of the free end over 3 s,
+over the length. It comes from the time step: it is the same for all numbers of segments and
+proportional to h. With so little damping, one substep of 10 ms is at the limit of the direct
+solver (the joints of 24 to 30 segments open by some percent), so the swing is compared from two
+substeps on. *Carried*: the rope held at both ends, 1.5 m apart, is carried at 0.1 m/s along,
+across and up with the default damping. The error is the largest distance from its shape at rest
+after 5 s."""
 FREE_LENGTH = 2.2  # m
 DAMPING = 0.5  # 1/s
 SEGMENTS = (28, 45, 100)

@@ -26,9 +26,10 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "End moved out of the plane and turned"
-METHOD = """The rod hangs clamped between two grips 1.5 m apart; then one grip moves to (1.2,
-0.5, 0.3) m and turns by the rotation vector (1.0, 0.4, -0.8) rad, in 10 s. Theory: the Kirchhoff
-rod in space with bending and twist, followed from the planar shape along the same path."""
+METHOD = """The rod hangs clamped between two grips 1.5 m apart. Then one grip moves to (1.2,
+0.5, 0.3) m and turns by the rotation vector (1.0, 0.4, -0.8) rad within 10 s. Theory: the
+Kirchhoff rod in space with bending and twist, followed from the planar shape along the same
+path."""
 GRIP = (1.5, 0.0)
 GOAL = np.array([1.2, 0.5, 0.3])  # m
 TURN = np.array([1.0, 0.4, -0.8])  # rad

@@ -20,16 +20,16 @@ from deformable_manipulation.validation.result import (
 from deformable_manipulation.validation.rod import ROPE, make_rod, move, settle
 
 TITLE = "Twist"
-METHOD = """No gravity; E 30 MPa, G 10 MPa, free length L (N-1)/N between clamps. *Before the
-critical twist* one end of the straight rod is turned by up to 6 rad; theory: the torque G J phi
-/ L. *The critical twist* is that of a rod with one sliding end: the straight rod without thrust
-buckles at a torque of 8.9868 E I / L. A grip of the simulator does not slide, so the end is
-pushed in a little first, by 0.05 % and 0.1 % of the length, which bends the rod sideways, and
-turned step by step. Where its axial reaction changes from thrust to tension, it would rest there
-on a slide: the rod is on the buckled path of the sliding rod, which begins at the critical
-twist. The two twists, extrapolated linearly to no push, are that beginning. The torque there is
-less than the critical one by what the simulated joint has of less torque at large angles: it is
-G J / l sin(angle), which is second order in the segment length."""
+METHOD = """There is no gravity. E is 30 MPa, G is 10 MPa, and the free length between the clamps
+is L (N-1)/N. *Before the critical twist*, one end of the straight rod is turned by up to 6 rad.
+Theory: the torque G J phi / L. *The critical twist* is that of a rod with one sliding end: the
+straight rod without thrust buckles at a torque of 8.9868 E I / L. A grip of the simulator does
+not slide. Instead the end is first pushed in a little, by 0.05 % and 0.1 % of the length, which
+bends the rod sideways, and then turned step by step. Where its axial reaction changes from
+thrust to tension, it would rest on a slide: the rod is on the buckled path of the sliding rod,
+which begins at the critical twist. Linear extrapolation of the two twists to zero push gives
+that beginning. The torque there is less than the critical one because the simulated joint has
+less torque at large angles: G J / l sin(angle), an error of second order in the segment length."""
 SEGMENTS = (28, 45, 100)
 TURNS = (1.0, 2.0, 4.0, 6.0)  # rad
 TORQUE_TOLERANCE = 1.0  # % at 28 segments and 6 rad

@@ -24,14 +24,14 @@ from deformable_manipulation.validation.rod import (
 )
 
 TITLE = "Wrenches at rest"
-METHOD = """Force and torque (about the grip's centre) on the grips of rods at rest: a clamped
-rope (E 30 MPa) level and not level, the cantilever of E 30 GPa, and the rods of E 30 MPa and 3
-GPa with one end moved out of the plane and turned. *Against statics*: with the weights of the
-simulated segments the wrenches must balance, whatever the resolution. *Against
-theory*: the ends of the elastica and of the Kirchhoff rod, with the weight of the half segments
-beyond the grips. Errors are norms, of forces over the largest of weight and force, of torques
-over the largest torque. The rope bends within 0.1 m of its clamps, that is one segment at 28,
-hence its tolerance of torque."""
+METHOD = """Force and torque (about the centre of the grip) on the grips of rods at rest: a
+clamped rope (E 30 MPa), level and not level, the cantilever of E 30 GPa, and the rods of E 30
+MPa and 3 GPa with one end moved out of the plane and turned. *Against statics*: the wrenches
+must balance the weights of the simulated segments at any resolution. *Against theory*: the ends
+of the elastica and of the Kirchhoff rod, with the weight of the half segments beyond the grips.
+Errors are norms. Those of forces are over the largest of weight and force, those of torques over
+the largest torque. The rope bends within 0.1 m of its clamps, which is about one segment of 28.
+This explains the tolerance of its torque."""
 SEGMENTS = (28, 45, 100)
 BALANCE_TOLERANCE = 5e-4  # %, the gaps that zero stretch leaves in the joints are levers
 # Percent at 28 segments: force, torque.
