@@ -73,7 +73,7 @@ def measure_terms(say: Say) -> Dict[str, str]:
         fixed = ["--runs", "100", "--seed", "7", "--duration", "60"]
         found = run_campaign("rope_one_assistant", [*fixed, *options.split()], say)
         title = f"`{options}`" if options else "no option"
-        distance = found["violations"]["distance"]
+        distance = found["violations"]["collision"]
         rows.append(
             [
                 f"{title}: {meaning}" if meaning else title,
@@ -113,7 +113,7 @@ def _campaigns(found: Dict[Tuple[str, str], Dict]) -> str:
     header += ["deadlocks", "programs relaxed; failed", "oscillation, median; largest"]
     rows: List[List[str]] = []
     for (name, value), one in found.items():
-        violations = [one["violations"][kind] for kind in ("distance", "overstretch")]
+        violations = [one["violations"][kind] for kind in ("collision", "overstretch")]
         most = f"{millimetres(one['oscillation']['most'], 2)} mm"
         rows.append(
             [
@@ -141,7 +141,7 @@ def _missed(one: Dict) -> str:
     kinds = [
         f"{one['violations'][kind]['runs']} {text}, by up to "
         f"{millimetres(one['violations'][kind]['worst'])} mm"
-        for kind, text in (("distance", "too close"), ("overstretch", "overstretched"))
+        for kind, text in (("collision", "too close"), ("overstretch", "overstretched"))
         if one["violations"][kind]["runs"]
     ]
     return f"of {one['runs']}: " + "; ".join(kinds) if kinds else f"0 of {one['runs']}"

@@ -61,7 +61,7 @@ def _margins(runs: Dict[Tuple[str, str], Dict]) -> str:
     for name in SCENARIOS:
         for variant in (FULL, PAPER):
             run = runs[name, variant]
-            lengths = (run["offset"], run["min_distance"], run["min_stretch_margin"])
+            lengths = (run["offset"], run["min_distance"], run["min_margin"]["overstretch"])
             cells = [f"{millimetres(each)} mm" for each in lengths] + [_final_error(run)]
             relaxed = run["qp_relaxed"] if variant == FULL else "-"
             cells.append(f"{relaxed}; {run['qp_failed']}")
