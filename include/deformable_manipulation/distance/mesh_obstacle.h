@@ -33,7 +33,7 @@ class MeshObstacle : public Obstacle {
   //! @param vertices [m] in the obstacle's own frame
   //! @param triangles indices of vertices, of either orientation
   //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
-  //! @throw std::invalid_argument, with all reasons: there is no triangle with an area; a vertex is not finite or
+  //! @throw std::invalid_argument All reasons: there is no triangle with an area; a vertex is not finite or
   //!   beyond 1e6 m; a triangle refers to a vertex that does not exist; the pose is none
   MeshObstacle(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& triangles,
                const Vector3& translation = Vector3::Zero(),
@@ -42,7 +42,7 @@ class MeshObstacle : public Obstacle {
 
   //! Moves the obstacle.
   //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
-  //! @throw std::invalid_argument, with all reasons
+  //! @throw std::invalid_argument All reasons
   void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
 
   //! Sentences about what was dropped or turned, and what has no sign.

@@ -29,7 +29,7 @@ class PlanarObstacle : public Obstacle {
   //!   `plane` names
   //! @param plane "xy", "yz" or "xz"
   //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
-  //! @throw std::invalid_argument, with all reasons: a coordinate is not finite or beyond 1e6 m; there are fewer than
+  //! @throw std::invalid_argument All reasons: a coordinate is not finite or beyond 1e6 m; there are fewer than
   //!   three distinct points or they bound no area; the polygon crosses itself; the plane is unknown; the pose is
   //!   none
   PlanarObstacle(const std::vector<std::array<double, 2>>& points, const std::string& plane,
@@ -39,7 +39,7 @@ class PlanarObstacle : public Obstacle {
 
   //! Moves the obstacle.
   //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
-  //! @throw std::invalid_argument, with all reasons
+  //! @throw std::invalid_argument All reasons
   void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
 
   void minima(const ObjectView& object, Feature* nearest) override;

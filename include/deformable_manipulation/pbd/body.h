@@ -79,11 +79,13 @@ class Body {
   // Holding ------------------------------------------------------------------------------------
 
   //! Holds a particle where it is now.
-  //! @throw std::out_of_range if there is no such particle, std::invalid_argument if it is held already.
+  //! @throw std::out_of_range if there is no such particle
+  //! @throw std::invalid_argument if it is held already
   void hold(int particle, Hold type);
 
   //! Holds a particle and puts it at a pose.
-  //! @throw as above, and std::invalid_argument if the pose is not finite or not of norm 1.
+  //! @throw std::out_of_range if there is no such particle
+  //! @throw std::invalid_argument if it is held already, or the pose is not finite or not of norm 1.
   void hold(int particle, Hold type, const Pose& pose);
 
   //! Lets a particle go; copies that displace it are removed.

@@ -51,7 +51,8 @@ class Simulation {
   //! False if the object still moved when settling was given up.
   bool settled() const { return settled_; }
 
-  //! @throw std::out_of_range if there is no such agent, std::invalid_argument if the twist is not finite.
+  //! @throw std::out_of_range if there is no such agent
+  //! @throw std::invalid_argument if the twist is not finite
   void setCommand(int agent, const Twist& twist);
 
   //! Advances by a cycle. @throw NonFiniteState
@@ -61,25 +62,29 @@ class Simulation {
   void reset();
 
   //! Adds a copy while running; it comes and goes with the agent's hold. @return its id
-  //! @throw std::out_of_range, std::invalid_argument as Body::addCopy().
+  //! @throw std::out_of_range as Body::addCopy()
+  //! @throw std::invalid_argument as Body::addCopy()
   int addPerturbation(const Perturbation& perturbation);
 
   //! Removes copies by their ids. @throw std::invalid_argument if there is no such copy.
   void removePerturbations(const std::vector<int>& ids);
 
   //! Replaces all copies, now and for resets to come, which settle the object anew.
-  //! @throw std::out_of_range, std::invalid_argument as Body::addCopy(); nothing changes then.
+  //! @throw std::out_of_range as Body::addCopy(); nothing changes then.
+  //! @throw std::invalid_argument as Body::addCopy(); nothing changes then.
   void setPerturbations(const std::vector<Perturbation>& perturbations);
 
   //! Removes the copies that displace an agent.
   void clearPerturbations(int agent);
 
   //! Lets go of the particle that an agent holds; the agent moves on by itself.
-  //! @throw std::out_of_range, std::logic_error if it holds none.
+  //! @throw std::out_of_range if there is no such agent
+  //! @throw std::logic_error if it holds none
   void release(int agent);
 
   //! Grips a particle where it is; the agent is put there, and its perturbed copies come back.
-  //! @throw std::out_of_range, std::logic_error if the agent holds one already, another agent holds
+  //! @throw std::out_of_range if there is no such agent or particle
+  //! @throw std::logic_error if the agent holds one already, another agent holds
   //! this one, or the particle is farther from the agent than kGripReach.
   void hold(int agent, int particle, Hold type);
 
@@ -87,7 +92,7 @@ class Simulation {
   static constexpr double kGripReach = 0.1;
 
   //! Changes material parameters now and for resets to come, which settle the object anew.
-  //! @throw ParameterError; nothing changes then.
+  //! @throw ParameterError as Body::setMaterial(); nothing changes then.
   void setMaterial(const std::vector<MaterialParameter>& parameters);
 
   const Body& body() const { return *body_; }
