@@ -30,7 +30,7 @@ BagRecorder::BagRecorder(ros::NodeHandle& node, const std::string& path, const s
   recorded_ = node.advertise<std_msgs::Header>("recorded", 1, true);
   topics_.reserve(topics.size());  // they are subscribed with their addresses
   for (const std::string& name : topics) {
-    topics_.push_back({name});
+    topics_.push_back({name, {}});
     subscribe(node, topics_.back());
   }
 }
