@@ -3,22 +3,19 @@
 import dataclasses
 import math
 from dataclasses import dataclass
-from functools import singledispatch
 
 import numpy as np
 
 from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
-    FabricSpec,
     KnowledgeSpec,
-    RodSpec,
     Scenario,
 )
 from deformable_manipulation.simulation.factory import make_simulation
@@ -79,7 +76,7 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         obstacles = tuple(random_obstacle(obstacle, random) for obstacle in obstacles)
     drawn = dataclasses.replace(
         scenario,
-        object=_other_material(scenario.object, ranges.material, random),
+        object=scenario.object.varied_material(lambda: _factor(ranges.material, random)),
         obstacles=obstacles,
         agents=tuple(_other_start(agent, random) for agent in scenario.agents),
         simulation=dataclasses.replace(scenario.simulation, duration=ranges.duration),
@@ -131,32 +128,6 @@ def _other_start(agent, random):
         return agent
     shift = random.uniform(-_START_SHIFT, _START_SHIFT, 3)
     return dataclasses.replace(agent, start=tuple((np.array(agent.start) + shift).tolist()))
-
-
-@singledispatch
-def _other_material(spec, factor: float, random):
-    raise TypeError(f"no random material for {type(spec).__name__}")
-
-
-@_other_material.register
-def _(spec: RodSpec, factor: float, random) -> RodSpec:
-    stiffness = _factor(factor, random)
-    return dataclasses.replace(
-        spec,
-        young_modulus=stiffness * spec.young_modulus,
-        torsion_modulus=stiffness * spec.torsion_modulus,
-        density=_factor(factor, random) * spec.density,
-    )
-
-
-@_other_material.register
-def _(spec: FabricSpec, factor: float, random) -> FabricSpec:
-    return dataclasses.replace(
-        spec,
-        stretching_compliance=_factor(factor, random) * spec.stretching_compliance,
-        bending_compliance=_factor(factor, random) * spec.bending_compliance,
-        density=_factor(factor, random) * spec.density,
-    )
 
 
 def _factor(largest: float, random) -> float:

@@ -1,7 +1,6 @@
 """The command ``check_scenario``: is a scenario file correct, and what does it hold."""
 
 import argparse
-import math
 import sys
 from itertools import combinations
 from typing import Iterator, Optional, Sequence
@@ -19,7 +18,6 @@ from deformable_manipulation.scenario.mapping import scenario_to_yaml
 from deformable_manipulation.scenario.spec import (
     PathMotion,
     PolygonObstacle,
-    RodSpec,
     Scenario,
     TopicMotion,
 )
@@ -74,47 +72,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def describe_object(spec) -> str:
-    """What is carried, in a few words."""
-    if isinstance(spec, RodSpec):
-        return "rod of {:g} m, radius {:g} m, {} segments".format(
-            spec.length, spec.radius, spec.segments
-        )
-    sizes = (max(axis) - min(axis) for axis in zip(*spec.vertices))
-    return "fabric of {} m, {:g} kg/m^2, {} particles, {} triangles".format(
-        " x ".join("{:.4g}".format(size) for size in sizes if size),
-        spec.density,
-        spec.particles,
-        len(spec.triangles),
-    )
-
-
-def describe_material(spec) -> str:
-    """What the object is made of: the values that a material preset and the scenario give."""
-    if isinstance(spec, RodSpec):
-        area = math.pi * spec.radius**2
-        return (
-            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
-            "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
-                spec.density,
-                spec.young_modulus,
-                spec.torsion_modulus,
-                spec.density * area * spec.length,
-                spec.young_modulus * area * spec.radius**2 / 4.0,
-            )
-        )
-    stiffnesses = (
-        "{:.4g} {}".format(1.0 / compliance, unit) if compliance else "rigid"
-        for compliance, unit in (
-            (spec.stretching_compliance, "N/m"),
-            (spec.bending_compliance, "N m"),
-        )
-    )
-    return "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
-        spec.density, spec.thickness, *stiffnesses
-    )
-
-
 def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
     """What is allowed, and rarely meant; ``file_name`` is without its ending."""
     # Imported late: loads the compiled distances, which error messages do not need.
@@ -149,8 +106,8 @@ def describe_motion(motion) -> str:
 
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
-    yield "object: {}".format(describe_object(scenario.object))
-    yield "material: {}".format(describe_material(scenario.object))
+    yield "object: {}".format(scenario.object.describe())
+    yield "material: {}".format(scenario.object.describe_material())
     for agent in scenario.agents:
         yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
             agent.name,

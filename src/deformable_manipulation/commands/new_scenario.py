@@ -15,17 +15,18 @@ from deformable_manipulation.authoring.scenario_text import NoMaterial, moved_te
 from deformable_manipulation.authoring.yaml_edit import replace_scalars
 from deformable_manipulation.commands.arguments import command_parser, folder_name
 from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.scenario import (
     ScenarioError,
     load_scenario,
     package_share_directory,
 )
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.materials import KINDS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.text_files import read_text
 
 NAME = "new_scenario"
+_DEFAULT_KIND = next(iter(KINDS))
 DESCRIPTION = """Make a scenario of your own: a scenario file with comments on what to change, a
 launch file and an RViz configuration, which run as they are. They go side by side into a folder,
 or, where that is the root of a catkin package, into its config/scenarios, launch and rviz."""
@@ -75,7 +76,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="folder, made if it is not there (default: this one)",
     )
     origin = parser.add_mutually_exclusive_group()
-    origin.add_argument("--object", choices=KINDS, help=f"what is carried (default: {KINDS[0]})")
+    origin.add_argument(
+        "--object", choices=KINDS, help=f"what is carried (default: {_DEFAULT_KIND})"
+    )
     origin.add_argument(
         "--from",
         dest="source",
@@ -130,7 +133,7 @@ def _make(arguments: argparse.Namespace) -> Places:
 def _source(arguments: argparse.Namespace) -> Path:
     if arguments.source is not None:
         return find_scenario(arguments.source).resolve()
-    kind = arguments.object or KINDS[0]
+    kind = arguments.object or _DEFAULT_KIND
     return package_share_directory() / "config" / "templates" / f"{kind}.yaml"
 
 

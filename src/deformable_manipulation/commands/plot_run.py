@@ -9,7 +9,7 @@ from deformable_manipulation.commands.arguments import command_parser, folder_na
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
-from deformable_manipulation.recording.frames import read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
 
 NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")

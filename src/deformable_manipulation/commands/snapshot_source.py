@@ -9,12 +9,13 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 
 from deformable_manipulation.recording import RunData, RunDataError, read_run
-from deformable_manipulation.recording.frames import Frames, read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
+from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.recorded_motion import with_recorded_motion
-from deformable_manipulation.recording.run_data import BAG_SUFFIXES, holds_run
+from deformable_manipulation.recording.run_reader import BAG_SUFFIXES, holds_run
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.files import find_scenario
-from deformable_manipulation.scenario.spec import FabricSpec, Scenario
+from deformable_manipulation.scenario.spec import Scenario
 
 _EVEN = (0.0, 0.25, 0.5, 0.75)  # of the duration
 
@@ -54,7 +55,7 @@ class SnapshotSource:
     def hides_itself(self) -> bool:
         """Whether pictures of several times over each other would show little."""
         moves = any(obstacle.motion for obstacle in self.scenario.obstacles)
-        return moves or isinstance(self.scenario.object, FabricSpec)
+        return moves or self.scenario.object.is_surface
 
     def bounds(self) -> np.ndarray:
         """The corners (2, 3) [m] of what there is to be seen."""

@@ -79,7 +79,7 @@ class SnapshotPlot:
 
     def _draw_frame(self, frame: int, colour: str) -> None:
         points = self._frames.points[frame][:, self._plane]
-        if self._frames.faces is None:
+        if not self._frames.scenario.object.is_surface:
             self._axes.plot(*points.T, color=colour, linewidth=1.4, zorder=4)
         else:
             self._axes.add_collection(

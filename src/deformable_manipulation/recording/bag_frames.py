@@ -15,7 +15,7 @@ from deformable_manipulation.recording.bag_track import DISTANCES
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunDataError
 from deformable_manipulation.scenario import ScenarioError, scenario_from_mapping
-from deformable_manipulation.scenario.spec import FabricSpec, Scenario
+from deformable_manipulation.scenario.spec import Scenario
 
 OBJECT_STATE = "deformable_manipulation/msg/ObjectState"
 
@@ -55,13 +55,11 @@ def _read_states(path: Path, reader: Reader, scenario: Scenario, namespace: str)
         raise RunDataError(f"{path} holds no state of the object")
     cycles = sorted(frames)
     points, agents = zip(*(frames[cycle] for cycle in cycles))
-    faces = scenario.object.triangles if isinstance(scenario.object, FabricSpec) else None
     return Frames(
         scenario,
         np.array(cycles) * scenario.cycle_time,
         np.stack(points),
         np.stack(agents),
-        None if faces is None else np.array(faces),
         _read_obstacles(reader, scenario, namespace, cycles, every),
     )
 

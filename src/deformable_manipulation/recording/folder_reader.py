@@ -8,6 +8,7 @@ from typing import Dict, List, Tuple
 import numpy as np
 import yaml
 
+from deformable_manipulation.objects.object_spec import LARGEST_VALID_STRETCH
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import (
     SERIES_COLUMNS,
@@ -16,7 +17,7 @@ from deformable_manipulation.recording.run_data import (
     make_assistant_series,
     offset_of,
 )
-from deformable_manipulation.simulation.stretch import LARGEST_VALID_STRETCH, largest_stretch
+from deformable_manipulation.simulation.stretch import largest_stretch
 from deformable_manipulation.system.text_files import TextFileError, read_text
 
 STATUS_SUFFIX = ".status"  # only assistants have a status

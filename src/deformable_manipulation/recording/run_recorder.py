@@ -9,7 +9,7 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.summary import summarise, write_summary
 from deformable_manipulation.recording.timeseries import CycleRecord, TimeSeries
 from deformable_manipulation.scenario import scenario_to_yaml
-from deformable_manipulation.scenario.spec import FabricSpec, Scenario
+from deformable_manipulation.scenario.spec import Scenario
 
 # Keeps a frame that is due at a whole cycle from slipping to the next one by rounding.
 FRAME_TOLERANCE = 1e-9
@@ -110,6 +110,6 @@ class RunRecorder:
         if moving:
             arrays["obstacles"] = np.array(obstacles, np.float32).reshape(len(times), -1, 7)
             arrays["obstacle_names"] = np.array(moving)
-        if isinstance(self._scenario.object, FabricSpec):
+        if self._scenario.object.is_surface:
             arrays["faces"] = np.array(self._scenario.object.triangles, dtype=np.int32)
         np.savez_compressed(file, **arrays)

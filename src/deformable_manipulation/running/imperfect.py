@@ -3,7 +3,6 @@
 import dataclasses
 import math
 from collections import deque
-from functools import singledispatch
 from typing import Dict, Sequence
 
 import numpy as np
@@ -12,7 +11,7 @@ from deformable_manipulation._control import PositionFilter
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.scenario.limits import pair_limits
-from deformable_manipulation.scenario.spec import FabricSpec, KnowledgeSpec, RodSpec, Scenario
+from deformable_manipulation.scenario.spec import KnowledgeSpec, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 
@@ -163,29 +162,8 @@ class MeasuredPoses:
 
 def true_scenario(scenario: Scenario) -> Scenario:
     """The scenario with the object's true material in place of the assumed one."""
-    return dataclasses.replace(scenario, object=_true_object(scenario.object, scenario.knowledge))
-
-
-@singledispatch
-def _true_object(spec, knowledge: KnowledgeSpec):
-    raise TypeError(f"no other material for {type(spec).__name__}")
-
-
-@_true_object.register
-def _true_rod(spec: RodSpec, knowledge: KnowledgeSpec) -> RodSpec:
-    return dataclasses.replace(
-        spec,
-        young_modulus=knowledge.stiffness_factor * spec.young_modulus,
-        torsion_modulus=knowledge.stiffness_factor * spec.torsion_modulus,
-        density=knowledge.density_factor * spec.density,
+    knowledge = scenario.knowledge
+    true_object = scenario.object.scaled_material(
+        knowledge.stiffness_factor, knowledge.density_factor
     )
-
-
-@_true_object.register
-def _true_fabric(spec: FabricSpec, knowledge: KnowledgeSpec) -> FabricSpec:
-    return dataclasses.replace(
-        spec,
-        stretching_compliance=spec.stretching_compliance / knowledge.stiffness_factor,
-        bending_compliance=spec.bending_compliance / knowledge.stiffness_factor,
-        density=knowledge.density_factor * spec.density,
-    )
+    return dataclasses.replace(scenario, object=true_object)

@@ -15,7 +15,6 @@ from deformable_manipulation.reading.readers import (
     position,
     read_all,
 )
-from deformable_manipulation.scenario.objects import particle_position
 from deformable_manipulation.scenario.spec import ASSISTANT, LEADER, AgentSpec
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -107,7 +106,7 @@ def _complete(name: str, draft: Draft, spec) -> AgentSpec:
         raise Unreadable
     values = dict(draft)
     if values["start"] is None:
-        values["start"] = particle_position(spec, values["particle"])
+        values["start"] = spec.particle_position(values["particle"])
     if values["orientation"] is None:
         values["orientation"] = spec.pose.orientation
     return AgentSpec(name=name, **values)

@@ -7,7 +7,6 @@ from typing import Sequence, Tuple
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.readers import Report
 from deformable_manipulation.scenario.limits import limits_between
-from deformable_manipulation.scenario.objects import free_length
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
@@ -94,7 +93,7 @@ def check_time(report: Report, controller: ControllerSpec, simulation: Simulatio
 def check_starts(report: Report, spec, agents: Tuple[AgentSpec, ...]) -> None:
     """No two agents start further apart than the object reaches."""
     for first, second in combinations(agents, 2):
-        length = free_length(spec, first.particle, second.particle)
+        length = spec.free_length(first.particle, second.particle)
         distance = _distance(first.start, second.start)
         if _exceeds(distance, length):
             _report_start(
@@ -111,7 +110,7 @@ def check_limits(
 ) -> None:
     """The limits of every pair of agents suit the object, and the start is within them."""
     for first, second in combinations(agents, 2):
-        length = free_length(spec, first.particle, second.particle)
+        length = spec.free_length(first.particle, second.particle)
         limits = limits_between(spec, first, second, controller)
         between = "{} and {}".format(first.name, second.name)
         if _exceeds(limits.max_distance, length):
@@ -185,7 +184,7 @@ def check_perturbation(
     """Displaced copies stay within the object's reach, one way or the other."""
     shortest = min(
         (
-            free_length(spec, first.particle, second.particle)
+            spec.free_length(first.particle, second.particle)
             for first, second in combinations(agents, 2)
         ),
         default=math.inf,

@@ -21,7 +21,6 @@ from deformable_manipulation.scenario.spec import (
     ControllerSpec,
     OverstretchSpec,
     ProximitySpec,
-    RodSpec,
 )
 
 # Less would be rounding in the differences between copies, one of which may be at a quarter of it.
@@ -130,5 +129,4 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     """The section with what depends on the object filled in: exact gradients where it has them."""
     if controller.jacobian is not None:
         return controller
-    jacobian = "equilibrium" if isinstance(spec, RodSpec) else "perturbed_copies"
-    return dataclasses.replace(controller, jacobian=jacobian)
+    return dataclasses.replace(controller, jacobian=spec.default_jacobian)

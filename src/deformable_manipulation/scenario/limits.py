@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import Tuple
 
 from deformable_manipulation.geometry.pose import Vector
-from deformable_manipulation.scenario.objects import free_length
 from deformable_manipulation.scenario.spec import AgentSpec, ControllerSpec, Scenario
 
 AUTO_MIN_DISTANCE = 0.10  # of the free length
@@ -29,7 +28,7 @@ def limits_between(
     spec, first: AgentSpec, second: AgentSpec, controller: ControllerSpec
 ) -> PairLimits:
     """Limits of the distance between two agents that hold the object ``spec``."""
-    length = free_length(spec, first.particle, second.particle)
+    length = spec.free_length(first.particle, second.particle)
     max_distance = controller.overstretch.max_distance
     min_distance = controller.proximity.min_distance
     return PairLimits(

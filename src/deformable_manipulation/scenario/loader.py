@@ -4,6 +4,7 @@ import dataclasses
 from pathlib import Path
 from typing import Any, Dict, Iterable, Mapping, Union
 
+from deformable_manipulation.objects.kinds import read_object
 from deformable_manipulation.reading.document import read_document
 from deformable_manipulation.reading.errors import ScenarioError
 from deformable_manipulation.reading.names import FRAME, ONE_LINE
@@ -21,7 +22,6 @@ from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import check_formulation
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, check_delay
 from deformable_manipulation.scenario.motions import check_frames
-from deformable_manipulation.scenario.objects import read_object
 from deformable_manipulation.scenario.obstacles import read_obstacles
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.scenario.waypoints import LEADER_PATH

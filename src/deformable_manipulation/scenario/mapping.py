@@ -1,17 +1,11 @@
 """Scenarios as plain values: what the resolved YAML and the parameter server hold."""
 
-import dataclasses
 from typing import Any, Dict
 
 import yaml
 
-from deformable_manipulation.scenario.spec import (
-    AgentSpec,
-    FabricSpec,
-    PolygonObstacle,
-    RodSpec,
-    Scenario,
-)
+from deformable_manipulation.reading.plain import to_plain
+from deformable_manipulation.scenario.spec import AgentSpec, PolygonObstacle, Scenario
 
 
 def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
@@ -22,10 +16,10 @@ def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
     :func:`~deformable_manipulation.scenario.loader.scenario_from_mapping` makes an equal scenario
     of it. It suits the parameter server: no empty values, no large integers.
     """
-    mapping = _plain(scenario)
-    mapping["object"] = _object(scenario.object)
+    mapping = to_plain(scenario)
+    mapping["object"] = scenario.object.to_mapping()
     mapping["agents"] = {agent.name: _agent(agent) for agent in scenario.agents}
-    if not isinstance(scenario.object, RodSpec):
+    if not scenario.object.has_joint_solver:
         del mapping["simulation"]["solver"]
     mapping["obstacles"] = [_obstacle(obstacle) for obstacle in scenario.obstacles]
     return mapping
@@ -33,7 +27,7 @@ def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
 
 def controller_to_mapping(scenario: Scenario) -> Dict[str, Any]:
     """The section ``controller`` of :func:`scenario_to_mapping`."""
-    return _plain(scenario.controller)
+    return to_plain(scenario.controller)
 
 
 def scenario_to_yaml(scenario: Scenario) -> str:
@@ -42,31 +36,15 @@ def scenario_to_yaml(scenario: Scenario) -> str:
 
 
 def _agent(agent: AgentSpec) -> Dict[str, Any]:
-    mapping = _plain(agent)
+    mapping = to_plain(agent)
     del mapping["name"]
     return mapping
 
 
-def _object(spec) -> Dict[str, Any]:
-    mapping = _plain(spec)
-    if isinstance(spec, FabricSpec):
-        mesh = {key: mapping.pop(key) for key in ("vertices", "triangles")}
-        mapping = {"mesh": mesh, **mapping}
-    return {"type": spec.type, **mapping}
-
-
 def _obstacle(obstacle) -> Dict[str, Any]:
-    mapping = _plain(obstacle)
+    mapping = to_plain(obstacle)
     if obstacle.motion is None:
         del mapping["motion"]
     if isinstance(obstacle, PolygonObstacle):
         mapping = {"name": mapping.pop("name"), "polygon": mapping.pop("points"), **mapping}
     return mapping
-
-
-def _plain(value):
-    if dataclasses.is_dataclass(value):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    return "auto" if value is None else value

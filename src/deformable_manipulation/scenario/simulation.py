@@ -13,8 +13,7 @@ from deformable_manipulation.reading.readers import (
     Section,
     vector,
 )
-from deformable_manipulation.scenario.objects import auto_substeps
-from deformable_manipulation.scenario.spec import RodSpec, SimulationSpec
+from deformable_manipulation.scenario.spec import SimulationSpec
 
 
 class Substeps(Integer):
@@ -49,7 +48,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
     :param simulation: as read, with None for what is not given.
     :param spec: the object.
     """
-    if simulation.solver is not None and not isinstance(spec, RodSpec):
+    if simulation.solver is not None and not spec.has_joint_solver:
         report.add(
             ("simulation", "solver"),
             "is of a rod's joints; remove it",
@@ -57,7 +56,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
         )
     filled = {}
     if simulation.substeps is None:
-        filled["substeps"] = auto_substeps(spec, simulation.time_step)
+        filled["substeps"] = spec.auto_substeps(simulation.time_step)
     if simulation.solver is None:
         filled["solver"] = SimulationSpec.solver
     return dataclasses.replace(simulation, **filled)

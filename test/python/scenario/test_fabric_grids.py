@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from deformable_manipulation.objects.fabric_grid import grid_mesh
 from deformable_manipulation.scenario import scenario_from_mapping
-from deformable_manipulation.scenario.fabric_grid import grid_mesh
 
 cells = st.integers(1, 12)
 

@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from deformable_manipulation.running.closed_loop import make_minimum_distance
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario, pair_limits
-from deformable_manipulation.scenario.objects import particle_position
 from deformable_manipulation.simulation.factory import make_simulation
 
 
@@ -19,7 +18,7 @@ def scenario():
 def test_fabric(scenario):
     assert (scenario.object.particles, len(scenario.object.triangles)) == (225, 392)
     assert scenario.object.density == 1.0
-    corners = [particle_position(scenario.object, index) for index in (0, 14, 210, 224)]
+    corners = [scenario.object.particle_position(index) for index in (0, 14, 210, 224)]
     assert math.dist(corners[0], corners[1]) == math.dist(corners[0], corners[2]) == 2.0
     assert math.dist(corners[0], corners[3]) == pytest.approx(2.0 * math.sqrt(2.0))
 

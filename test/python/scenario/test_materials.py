@@ -4,12 +4,13 @@ import copy
 
 import pytest
 
+from deformable_manipulation.objects.kinds import KINDS
+from deformable_manipulation.objects.materials import NOTES, preset_values, presets
 from deformable_manipulation.scenario import (
     package_share_directory,
     scenario_from_mapping,
     scenario_to_mapping,
 )
-from deformable_manipulation.scenario.materials import KINDS, NOTES, preset_values, presets
 
 ALL = [(kind, name) for kind in KINDS for name in presets(kind)]
 GIVEN = {

@@ -6,6 +6,8 @@ import re
 import pytest
 import yaml
 
+from deformable_manipulation.objects.fabric import FABRIC
+from deformable_manipulation.objects.rod import POSE, ROD
 from deformable_manipulation.scenario import package_share_directory
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.controller import (
@@ -14,12 +16,10 @@ from deformable_manipulation.scenario.controller import (
     OVERSTRETCH,
     PROXIMITY,
 )
-from deformable_manipulation.scenario.fabric import FABRIC
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
-from deformable_manipulation.scenario.rod import POSE, ROD
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 

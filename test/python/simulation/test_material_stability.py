@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from deformable_manipulation.objects.kinds import KINDS
+from deformable_manipulation.objects.materials import presets
 from deformable_manipulation.scenario import scenario_from_mapping
-from deformable_manipulation.scenario.materials import KINDS, presets
 from deformable_manipulation.simulation.factory import make_simulation
 
 OBJECTS = {

@@ -2,7 +2,7 @@
 
 import dataclasses
 from functools import lru_cache
-from typing import Any, Callable, Dict, Mapping
+from typing import Any, Dict, Iterable, Mapping
 
 import yaml
 
@@ -10,7 +10,6 @@ from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.readers import Node, Unreadable, nearest
 from deformable_manipulation.system.package_files import package_share_directory
 
-KINDS = ("rod", "fabric")
 NOTES = ("about", "source")  # what a preset has beside keys of the object
 
 
@@ -29,12 +28,14 @@ def preset_values(kind: str, name: str) -> Dict[str, Any]:
     return {key: item for key, item in presets(kind)[name].items() if key not in NOTES}
 
 
-def read_with_material(node: Node, kind: str, read: Callable[[Node], Any]):
+def read_with_material(node: Node, kind: str, kinds: Mapping[str, Any]):
     """Read an ``object`` section after its ``material`` gave the keys that the section lacks.
 
     :param node: the section, a mapping.
-    :param read: reader of the section without ``material``.
+    :param kind: of the object.
+    :param kinds: the specs of all kinds by name; each reads the section without ``material``.
     """
+    read = kinds[kind].read
     if "material" not in node.value:
         return read(node)
     given = {key: item for key, item in node.value.items() if key != "material"}
@@ -42,7 +43,7 @@ def read_with_material(node: Node, kind: str, read: Callable[[Node], Any]):
     known = presets(kind)
     if isinstance(material.value, str) and material.value in known:
         return read(_filled(node, kind, material.value, given))
-    material.report.add(material.path, _unknown(material.value, kind), show(material.value))
+    material.report.add(material.path, _unknown(material.value, kind, kinds), show(material.value))
     # With any preset in its place, the section's other mistakes are found, and no false ones.
     read(_filled(node, kind, next(iter(known)), given))
     raise Unreadable
@@ -52,8 +53,8 @@ def _filled(node: Node, kind: str, name: str, given: Mapping[str, Any]) -> Node:
     return dataclasses.replace(node, value={**preset_values(kind, name), **given})
 
 
-def _unknown(value, kind: str) -> str:
-    for other in KINDS:
+def _unknown(value, kind: str, kinds: Iterable[str]) -> str:
+    for other in kinds:
         if other != kind and isinstance(value, str) and value in presets(other):
             hint = " that is a material of type {};".format(other)
             break

@@ -1,0 +1,1 @@
+"""What is carried: all that Python knows of each kind of object, in a module of its own."""
