@@ -125,7 +125,7 @@ def _output_folder(run: RunData, output: Optional[Path]) -> Path:
 
 
 def _save(figures, folder: Path, prefix: str, formats: Sequence[str]) -> List[Path]:
-    from deformable_manipulation.plots.controller_plot import save_figure
+    from deformable_manipulation.plots.style import save_figure
 
     paths = []
     for name, figure in figures.items():

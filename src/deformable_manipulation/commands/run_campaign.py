@@ -240,7 +240,7 @@ def _outcomes(campaign: Campaign, arguments: argparse.Namespace):
 
 def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> None:
     from deformable_manipulation.campaign.plots import plot_campaign
-    from deformable_manipulation.plots.controller_plot import save_figure
+    from deformable_manipulation.plots.style import save_figure
 
     content = {
         "scenario": campaign.scenario.name,
