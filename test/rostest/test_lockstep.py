@@ -19,9 +19,9 @@ from observed_run import (
     run_tests,
 )
 
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.msg import ObjectState
-from deformable_manipulation.running.closed_loop import make_minimum_distance
 
 TOLERANCE = 1e-9  # m and m/s: rounding
 

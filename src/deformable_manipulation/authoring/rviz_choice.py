@@ -7,9 +7,6 @@ from deformable_manipulation.authoring.places import rviz_file_of
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.package_files import package_share_directory
 
-# Of the package's own, for scenarios without one.
-_BY_TYPE = {"rod": "rope_one_assistant", "fabric": "fabric_three_assistants"}
-
 
 def own_configuration(scenario: Scenario, scenario_file: Optional[Path] = None) -> Optional[Path]:
     """That of the scenario's file, if that is known; else the package's of its name, if any."""
@@ -23,7 +20,7 @@ def own_configuration(scenario: Scenario, scenario_file: Optional[Path] = None) 
 def rviz_configuration(scenario_file: Optional[Path], scenario: Scenario) -> Path:
     """Its own configuration; else the package's for objects of its type."""
     own = own_configuration(scenario, scenario_file)
-    return own or _of_package(_BY_TYPE[scenario.object.type])
+    return own or _of_package(scenario.object.rviz_example)
 
 
 def _of_package(name: str) -> Path:

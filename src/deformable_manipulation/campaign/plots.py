@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import SymmetricalLogLocator
 
 from deformable_manipulation.campaign.outcome import RunOutcome
-from deformable_manipulation.plots.controller_plot import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
+from deformable_manipulation.plots.style import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
 
 _PANELS = (
     ("clearance", "lowest distance\nminus offset [mm]"),

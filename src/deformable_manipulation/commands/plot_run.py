@@ -9,7 +9,7 @@ from deformable_manipulation.commands.arguments import command_parser, folder_na
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
-from deformable_manipulation.recording.frames import read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
 
 NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")
@@ -125,7 +125,7 @@ def _output_folder(run: RunData, output: Optional[Path]) -> Path:
 
 
 def _save(figures, folder: Path, prefix: str, formats: Sequence[str]) -> List[Path]:
-    from deformable_manipulation.plots.controller_plot import save_figure
+    from deformable_manipulation.plots.style import save_figure
 
     paths = []
     for name, figure in figures.items():

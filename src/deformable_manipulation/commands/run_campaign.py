@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import List, Optional, Sequence
 
 from deformable_manipulation.campaign import workers
+from deformable_manipulation.campaign.exit_status import UNACCEPTABLE
 from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
 from deformable_manipulation.campaign.runs import Campaign
@@ -45,7 +46,6 @@ The exit status is 0 if no limit is violated by more than the tolerance, no run 
 deadlocked, and no program failed; 3 otherwise.
 """
 _FASTEST = 2.0  # m/s, of a leader
-UNACCEPTABLE = 3  # exit status: the campaign was done, and something in it went wrong
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -240,7 +240,7 @@ def _outcomes(campaign: Campaign, arguments: argparse.Namespace):
 
 def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> None:
     from deformable_manipulation.campaign.plots import plot_campaign
-    from deformable_manipulation.plots.controller_plot import save_figure
+    from deformable_manipulation.plots.style import save_figure
 
     content = {
         "scenario": campaign.scenario.name,

@@ -84,7 +84,7 @@ def _default_folder(scenario: Scenario) -> Path:
 
 
 def _make_loop(scenario: Scenario, safety: bool):
-    # Imported late: loads the compiled simulation, which help and error messages do not need.
+    # Imported late: loads controllers and distances, which help and error messages do not need.
     from deformable_manipulation.running.closed_loop import ClosedLoop
 
     return ClosedLoop(scenario, safety=safety)

@@ -9,9 +9,10 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 
 from deformable_manipulation.recording import RunData, RunDataError, read_run
-from deformable_manipulation.recording.frames import Frames, read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
+from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.recorded_motion import with_recorded_motion
-from deformable_manipulation.recording.run_data import BAG_SUFFIXES, holds_run
+from deformable_manipulation.recording.run_reader import BAG_SUFFIXES, holds_run
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.spec import Scenario

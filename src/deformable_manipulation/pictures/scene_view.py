@@ -9,6 +9,7 @@ from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+from deformable_manipulation.simulation.factory import make_simulation
 
 _NEAR = 0.6  # m, obstacles are of interest so far from where the object and the agents come
 _FILLED = 0.85  # of the picture's width and height
@@ -39,9 +40,6 @@ def scene_bounds(scenario, points, agents):
 
 def planned_bounds(scenario):
     """The same for a scenario that has not been run, from its start and the leader's path."""
-    # Imported late: the compiled simulation, which recorded runs do not need.
-    from deformable_manipulation.simulation.factory import make_simulation
-
     path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
     points = make_simulation(scenario).points()[0]
     agents = np.array([agent.start for agent in scenario.agents])

@@ -1,38 +1,36 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
 from itertools import cycle
-from typing import List, Optional, Sequence, Tuple
+from typing import List, Optional, Tuple
 
 import numpy as np
 from matplotlib import rc_context
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.plots.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    MARGIN_LINES,
+    ORANGE,
+    STYLE,
+    VIOLATION,
+    legend_above,
+    title_of,
+)
 from deformable_manipulation.recording.run_data import AssistantSeries, RunData
 from deformable_manipulation.recording.timeseries import AXES
 
-COLUMN_WIDTH = 3.5  # in, one column of a two-column paper
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
-_LEGEND_LINE, _LEGEND_HANDLE = 58, 5  # letters, that fit above a panel and in place of a handle
-RESOLUTION = 300  # dots per inch of pixel formats
 MOVING = 1e-4  # m/s, velocity components that stay below are left out
 # Farther than this many offsets from the obstacle, distances say nothing about safety, and showing
 # them would hide a violation of some millimetres.
 DISTANCE_RANGE = 5.0
-
-# Colours that people with any common colour vision deficiency tell apart (Okabe and Ito).
-BLACK = "#000000"
-BLUE = "#0072B2"
-ORANGE = "#E69F00"
-GREEN = "#009E73"
-VERMILLION = "#D55E00"
-MARGIN_LINES = ((GREEN, "-"), (ORANGE, "-."), (BLUE, "--"), (BLACK, ":"))
-VIOLATION = {"color": VERMILLION, "marker": "v", "markersize": 4, "linestyle": "none"}
 
 # Background where the controller's status is one of these; the tones also differ in grey. The
 # rare ones get an outline, so that a single cycle among thousands still shows.
@@ -43,32 +41,6 @@ SHADES = (
     ((Status.WAITING, Status.DISABLED), "stopped", "#D9D9D9", 0.5),
     ((Status.UNSAFE_FILTER_OFF,), "filter off", "#F0E4EE", 0.0),
 )
-# Sizes in points, at COLUMN_WIDTH; papers ask for 8 or so.
-STYLE = {
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "axes.linewidth": 0.6,
-    "axes.axisbelow": True,
-    "axes.grid": True,
-    "grid.linewidth": 0.4,
-    "grid.color": "#CCCCCC",
-    "xtick.labelsize": 7.5,
-    "ytick.labelsize": 7.5,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "legend.fontsize": 7.5,
-    "legend.title_fontsize": 8,
-    "legend.frameon": False,
-    "legend.handlelength": 1.6,
-    "legend.handletextpad": 0.4,
-    "legend.columnspacing": 1.2,
-    "legend.borderpad": 0.0,
-    "legend.borderaxespad": 0.1,
-    "legend.labelspacing": 0.25,
-    "lines.linewidth": 0.9,
-    "pdf.fonttype": 42,  # publishers refuse the default, type 3
-    "ps.fonttype": 42,
-}
 
 
 def plot_controller(
@@ -102,17 +74,6 @@ def plot_controller(
     return figure
 
 
-def save_figure(figure: Figure, path) -> None:
-    """Write a figure in the format its name's ending tells (png, pdf, svg).
-
-    Raises:
-        OSError: the file cannot be written.
-        ValueError: unknown format.
-    """
-    with rc_context(STYLE):
-        figure.savefig(str(path), dpi=RESOLUTION)
-
-
 def _finish_figure(
     figure: Figure, axes, run: RunData, series: AssistantSeries, violated: bool
 ) -> None:
@@ -134,15 +95,6 @@ def _finish_figure(
         title=title_of(run, series.agent),
         borderaxespad=0.4,
     )
-
-
-def title_of(run: RunData, what: str = "") -> str:
-    """Title of a figure: the scenario, and a warning where the run's shapes mean nothing."""
-    name = run.scenario or run.name
-    title = f"{name}: {what}" if what else name
-    if run.max_stretch is None or run.max_stretch <= run.valid_stretch:
-        return title
-    return f"{title}\nNOT VALID: object stretched by up to {100.0 * run.max_stretch:.1f} %"
 
 
 def _plot_distance(axis: Axes, run: RunData) -> bool:
@@ -198,14 +150,6 @@ def _mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: flo
     worst = np.nanargmin(values)
     axis.plot(time[worst], values[worst], **VIOLATION)
     return True
-
-
-def legend_above(axis: Axes, handles: Sequence[Artist], labels: Sequence[str]) -> None:
-    """A legend above a panel, where it hides no data: in one line, or more where names are long."""
-    if handles:
-        letters = max(map(len, labels)) + _LEGEND_HANDLE
-        columns = min(len(handles), max(1, _LEGEND_LINE // letters))
-        axis.legend(handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns)
 
 
 def _legend_above(axis: Axes) -> None:

@@ -8,15 +8,9 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from deformable_manipulation.plots.controller_plot import (
-    BLACK,
-    COLUMN_WIDTH,
-    DISTANCE_RANGE,
-    STYLE,
-    legend_above,
-    title_of,
-)
+from deformable_manipulation.plots.controller_plot import DISTANCE_RANGE
 from deformable_manipulation.plots.snapshot_plot import COLOURS, SnapshotPlot
+from deformable_manipulation.plots.style import BLACK, COLUMN_WIDTH, STYLE, legend_above, title_of
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunData
 

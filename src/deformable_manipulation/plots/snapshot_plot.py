@@ -8,7 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 
+from deformable_manipulation.geometry.mesh_files import read_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
+from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.timeseries import AXES
 from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
@@ -79,7 +81,7 @@ class SnapshotPlot:
 
     def _draw_frame(self, frame: int, colour: str) -> None:
         points = self._frames.points[frame][:, self._plane]
-        if self._frames.faces is None:
+        if not self._frames.scenario.object.is_surface:
             self._axes.plot(*points.T, color=colour, linewidth=1.4, zorder=4)
         else:
             self._axes.add_collection(
@@ -153,9 +155,6 @@ def boundary_edges(faces: np.ndarray) -> np.ndarray:
 
 def placed_mesh(obstacle: MeshObstacle) -> np.ndarray:
     """Corners (T, 3, 3) [m] of the triangles of a mesh, in the fixed frame."""
-    from deformable_manipulation.geometry.mesh_files import read_mesh
-    from deformable_manipulation.geometry.rotation import rotate
-
     vertices, triangles = read_mesh(obstacle.mesh)
     columns = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
     placed = (vertices * np.array(obstacle.scale)) @ columns + np.array(obstacle.translation)

@@ -4,6 +4,7 @@ import dataclasses
 import os
 from typing import Any, Tuple
 
+from deformable_manipulation.geometry.mesh_files import MeshError, read_mesh
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
@@ -125,9 +126,6 @@ def _check_triangles(node: Node, mesh: Mesh) -> None:
 
 def _read_file(node: Node):
     """Absolute path, vertices (V, 3) and triangles (T, 3) of the mesh file that a node names."""
-    # Imported late: it loads libraries that scenarios without mesh files do not need.
-    from deformable_manipulation.geometry.mesh_files import MeshError, read_mesh
-
     try:
         path = os.path.abspath(str(resolve_file(node.value, node.directory)))
         vertices, triangles = read_mesh(path)

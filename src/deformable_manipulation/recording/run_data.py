@@ -1,17 +1,13 @@
 """A recorded run as arrays, the same whether read from a run folder or from a bag."""
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Mapping, Optional, Tuple
+from typing import Mapping, Optional, Tuple
 
 import numpy as np
 
 from deformable_manipulation.objects.common import LARGEST_VALID_STRETCH
-from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.timeseries import vector_columns
-
-BAG_SUFFIXES = (".bag", ".bag.active")
 
 
 class RunDataError(Exception):
@@ -58,33 +54,6 @@ class RunData:
         return start, round(last + (last - start) / (len(self.time) - 1), 6)
 
 
-def read_run(path, namespace: Optional[str] = None) -> RunData:
-    """Read a run folder, a bag, or a folder that holds exactly one bag.
-
-    ``namespace`` chooses one of several runs that were recorded side by side into one bag.
-
-    Raises:
-        RunDataError: there is no run, or it cannot be read.
-    """
-    path = Path(path)
-    if not os.path.exists(str(path)):  # unlike Path.exists also for names too long for any file
-        raise RunDataError(f"{path} does not exist")
-    # Imported late: each needs only its own file format's library.
-    if (path / run_files.TIMESERIES).is_file():
-        from deformable_manipulation.recording.folder_reader import read_folder
-
-        return read_folder(path)
-    bag = _only_bag(path) if path.is_dir() else path
-    if not bag.name.endswith(BAG_SUFFIXES):
-        raise RunDataError(
-            f"{path} is neither a run folder nor a bag; give the folder that run_scenario wrote, "
-            "or a file recorded by rosbag"
-        )
-    from deformable_manipulation.recording.bag_reader import read_bag
-
-    return read_bag(bag, namespace)
-
-
 def make_assistant_series(
     agent: str, time: np.ndarray, distance: np.ndarray, columns: Mapping[str, np.ndarray]
 ) -> AssistantSeries:
@@ -128,28 +97,6 @@ def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
     values = np.concatenate(differences) if differences else np.empty(0)
     finite = values[np.isfinite(values)]
     return float(np.median(finite)) if finite.size else None
-
-
-def holds_run(folder: Path) -> bool:
-    """Whether a folder has what read_run reads in it, or several of it."""
-    return (folder / run_files.TIMESERIES).exists() or bool(_bags(folder))
-
-
-def _bags(folder: Path) -> List[Path]:
-    return sorted(path for path in folder.iterdir() if path.name.endswith(BAG_SUFFIXES))
-
-
-def _only_bag(folder: Path) -> Path:
-    bags = _bags(folder)
-    if not bags:
-        raise RunDataError(f"{folder} holds neither {run_files.TIMESERIES} nor a bag")
-    if len(bags) > 1:
-        raise RunDataError(
-            "{} holds several bags; give one of them: {}".format(
-                folder, ", ".join(path.name for path in bags)
-            )
-        )
-    return bags[0]
 
 
 def _stack(columns: Mapping[str, np.ndarray], name: str) -> np.ndarray:

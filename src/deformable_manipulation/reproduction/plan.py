@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Sequence, Tuple
 
-from deformable_manipulation.commands.run_campaign import UNACCEPTABLE
+from deformable_manipulation.campaign.exit_status import UNACCEPTABLE
 from deformable_manipulation.reproduction.jobs import Job
 from deformable_manipulation.reproduction.paper import PUBLISHED
 from deformable_manipulation.scenario import load_scenario

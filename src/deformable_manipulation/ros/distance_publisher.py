@@ -8,6 +8,7 @@ import rospy
 from rospy.numpy_msg import numpy_msg
 
 from deformable_manipulation.cycles.health import input_report
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.distance.features import Distances as DistanceFeatures
 from deformable_manipulation.msg import Distances
 from deformable_manipulation.ros import node
@@ -18,7 +19,6 @@ from deformable_manipulation.ros.obstacle_frames import ObstacleFrames
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.ros.obstacle_tracker import ObstacleTracker
 from deformable_manipulation.ros.overrun_report import age_of
-from deformable_manipulation.running.closed_loop import make_minimum_distance
 
 
 class Computed(NamedTuple):

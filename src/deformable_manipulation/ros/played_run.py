@@ -114,7 +114,7 @@ class PlayedRun:
         state.header.frame_id = scenario.frame
         state.cycle = round(time / scenario.cycle_time)
         state.reset_count = self._reset_count
-        state.object_type = ObjectState.ROD if self._frames.faces is None else ObjectState.FABRIC
+        state.object_type = getattr(ObjectState, scenario.object.type.upper())
         state.point_count = len(points)
         state.points = points.ravel()
         state.agents = [agent.name for agent in scenario.agents]

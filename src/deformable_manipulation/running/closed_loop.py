@@ -1,12 +1,12 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
-from typing import Any, Dict
+from typing import Dict
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.minimum_distance import MinimumDistance
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
@@ -115,18 +115,3 @@ class ClosedLoop:
         for controller in self._controllers:
             decisions.update(controller.update(observation))
         return decisions
-
-
-def make_minimum_distance(scenario: Scenario):
-    """The distance computation for a scenario's object and obstacles, by the chosen backend.
-
-    Raises:
-        ValueError: an obstacle's file cannot be read, or its shape is none.
-    """
-    body, collision = scenario.object, scenario.controller.collision
-    backend: Any = MinimumDistance
-    if collision.backend == "reference":
-        from deformable_manipulation.distance.reference import ReferenceMinimumDistance
-
-        backend = ReferenceMinimumDistance
-    return backend(scenario.obstacles, body.margin, collision.band, "elements", body.faces())

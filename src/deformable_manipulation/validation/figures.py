@@ -9,14 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from deformable_manipulation.plots.controller_plot import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    STYLE,
-    VERMILLION,
-)
+from deformable_manipulation.plots.style import BLACK, BLUE, GREEN, ORANGE, STYLE, VERMILLION
 from deformable_manipulation.validation.result import CaseResult, Curve, Panel
 
 RESOLUTION = 100  # dots per inch

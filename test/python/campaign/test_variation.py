@@ -7,8 +7,8 @@ import pytest
 
 from deformable_manipulation.campaign.leader_paths import NoPath, random_path
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
-from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.simulation.factory import make_simulation
 

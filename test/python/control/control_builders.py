@@ -5,6 +5,7 @@ import numpy as np
 from deformable_manipulation import _control
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.features import Distances
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.spec import (
     AgentSpec,
     CollisionSpec,
@@ -12,7 +13,6 @@ from deformable_manipulation.scenario.spec import (
     LeaderSpec,
     OverstretchSpec,
     ProximitySpec,
-    RodSpec,
     Scenario,
     SimulationSpec,
     Waypoint,

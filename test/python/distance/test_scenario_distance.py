@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 import trimesh
 
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.distance.reference import ReferenceMinimumDistance
-from deformable_manipulation.running.closed_loop import make_minimum_distance
+from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.scenario.loader import load_scenario
-from deformable_manipulation.scenario.spec import FabricSpec, MeshObstacle
+from deformable_manipulation.scenario.spec import MeshObstacle
 
 SHEET = ((0.2, 0.2, 1.1), (0.8, 0.2, 1.1), (0.5, 0.8, 1.1))
 

@@ -6,12 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from deformable_manipulation.motion.leader import LeaderController, LeaderPath
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.spec import (
     AgentSpec,
     CollisionSpec,
     ControllerSpec,
     LeaderSpec,
-    RodSpec,
     Scenario,
     SimulationSpec,
     Waypoint,

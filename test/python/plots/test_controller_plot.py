@@ -6,7 +6,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.plots.controller_plot import COLUMN_WIDTH, plot_controller, save_figure
+from deformable_manipulation.plots.controller_plot import plot_controller
+from deformable_manipulation.plots.style import COLUMN_WIDTH, save_figure
 from deformable_manipulation.recording import AssistantSeries, RunData
 
 TIME = np.arange(100) / 10.0

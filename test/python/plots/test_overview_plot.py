@@ -8,7 +8,8 @@ from synthetic_run import make_record, make_scenario
 from deformable_manipulation.plots.overview_plot import plot_overview, snapshot_times
 from deformable_manipulation.plots.snapshot_plot import SnapshotPlot, boundary_edges, widest_plane
 from deformable_manipulation.recording import RunRecorder, read_run
-from deformable_manipulation.recording.frames import Frames, read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
+from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.scenario import load_scenario
 
 

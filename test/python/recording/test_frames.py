@@ -8,7 +8,7 @@ from bag_writing import BagWriter
 from synthetic_run import RATE, make_record, make_scenario
 
 from deformable_manipulation.recording import RunDataError, RunRecorder, read_run
-from deformable_manipulation.recording.frames import read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
 from deformable_manipulation.scenario.spec import PolygonObstacle, TopicMotion
 
 CYCLES = 41  # at 100 Hz; frames at 10 Hz

@@ -7,7 +7,7 @@ from bag_writing import BagWriter
 from synthetic_run import OFFSET, make_decision, make_record, make_scenario
 
 from deformable_manipulation.commands.plot_run import main
-from deformable_manipulation.plots.controller_plot import title_of
+from deformable_manipulation.plots.style import title_of
 from deformable_manipulation.recording import RunDataError, RunRecorder, read_run
 
 

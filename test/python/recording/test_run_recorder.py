@@ -8,10 +8,10 @@ import yaml
 from synthetic_run import OFFSET, POINTS, RATE, make_decision, make_record, make_scenario
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.recording import CycleTimings, RecordingError, RunRecorder
 from deformable_manipulation.recording import run_recorder as run_recorder_module
 from deformable_manipulation.scenario import scenario_from_mapping
-from deformable_manipulation.scenario.spec import FabricSpec
 
 
 @pytest.fixture

@@ -10,11 +10,12 @@ from mesh_reference import changed, fields_of
 from messages import distances_message, state_message, transmitted
 
 from deformable_manipulation.control.observation import find_fault
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import conversions
 from deformable_manipulation.ros.conversions import MessageError
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.simulation.factory import make_simulation
 

@@ -5,8 +5,8 @@ import pytest
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
-from deformable_manipulation.running.closed_loop import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario, package_share_directory
 from deformable_manipulation.scenario.spec import MeshObstacle, TopicMotion
 

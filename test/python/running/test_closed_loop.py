@@ -8,9 +8,10 @@ import pytest
 
 from deformable_manipulation.commands import run_scenario
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.recording import read_run
 from deformable_manipulation.running import closed_loop
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 
 SCENARIOS = Path(__file__).resolve().parents[2] / "rostest"

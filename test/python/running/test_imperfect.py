@@ -8,7 +8,8 @@ import pytest
 
 from deformable_manipulation.commands import run_scenario
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.running.imperfect import MeasuredPoses, true_scenario
 from deformable_manipulation.scenario import ScenarioError, load_scenario, pair_limits
 from deformable_manipulation.scenario.spec import KnowledgeSpec

@@ -8,11 +8,12 @@ import pytest
 
 from deformable_manipulation.campaign.variation import Ranges, vary
 from deformable_manipulation.commands import run_scenario
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, ObstaclePath
 from deformable_manipulation.recording import read_run
-from deformable_manipulation.recording.frames import read_frames
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.recording.frame_reader import read_frames
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 
 NAME = "rope_moving_obstacle"

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from deformable_manipulation.running.closed_loop import make_minimum_distance
+from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.scenario import load_scenario, pair_limits
 from deformable_manipulation.simulation.factory import make_simulation
 

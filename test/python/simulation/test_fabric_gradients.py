@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.validation.references.mesh_equilibrium import MeshEnergy

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from deformable_manipulation.commands import plot_run, run_scenario
+from deformable_manipulation.objects.fabric import FabricSpec
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.recording import read_run
 from deformable_manipulation.scenario import load_scenario, package_share_directory
-from deformable_manipulation.scenario.spec import FabricSpec, RodSpec
 from deformable_manipulation.simulation.stretch import StretchGauge, largest_stretch, valid_stretch
 
 SHORT_ROPE = package_share_directory() / "test" / "rostest" / "short_rope.yaml"
