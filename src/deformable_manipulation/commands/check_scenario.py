@@ -68,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--resolved",
         action="store_true",
-        help="print the scenario as YAML, with everything filled in, and nothing else",
+        help="print only the scenario, as YAML with everything filled in",
     )
     add_launch_arguments(parser)
     return parser
@@ -94,7 +94,7 @@ def describe_material(spec) -> str:
     if isinstance(spec, RodSpec):
         area = math.pi * spec.radius**2
         return (
-            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
+            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; mass "
             "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
                 spec.density,
                 spec.young_modulus,
@@ -110,8 +110,10 @@ def describe_material(spec) -> str:
             (spec.bending_compliance, "N m"),
         )
     )
-    return "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
-        spec.density, spec.thickness, *stiffnesses
+    return (
+        "{:.4g} kg/m^2, thickness {:.4g} m, stretching stiffness {}, bending stiffness {}".format(
+            spec.density, spec.thickness, *stiffnesses
+        )
     )
 
 
@@ -121,7 +123,7 @@ def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
     from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
     if scenario.name != file_name:
-        yield "name: its runs and pictures will be called '{}', the file is called '{}'".format(
+        yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
             scenario.name, file_name
         )
     yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
