@@ -197,8 +197,7 @@ def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
         writable_folder(folder)  # now, not after hours of runs
     except OSError as error:
         raise OSError(
-            f"cannot write into {folder}: {error.strerror}; choose a folder you may write to with "
-            f"--output"
+            f"cannot write into {folder}: {error.strerror}; choose a writable folder with --output"
         ) from error
     return folder
 

@@ -110,7 +110,8 @@ def size_of(text: str) -> Tuple[int, int]:
         number.isdecimal() and LEAST_SIZE <= int(number) <= LARGEST_SIZE for number in numbers
     ):
         raise argparse.ArgumentTypeError(
-            f"'{text}' is no size: two numbers of {LEAST_SIZE} to {LARGEST_SIZE}, as in 1280x800"
+            f"'{text}' is not a size: use two numbers from {LEAST_SIZE} to {LARGEST_SIZE}, "
+            "as in 1280x800"
         )
     return int(numbers[0]), int(numbers[1])
 
@@ -122,7 +123,7 @@ def speed_of(text: str) -> float:
     except ValueError:
         speed = 0.0
     if not 0.0 < speed < float("inf"):
-        raise argparse.ArgumentTypeError(f"'{text}' is no speed: a number above 0, as in 8")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a speed: use a number above 0, as in 8")
     return speed
 
 

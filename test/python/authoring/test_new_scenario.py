@@ -173,5 +173,5 @@ def test_reasons_why_there_are_no_files(tmp_path, capsys):
     assert "no scenario of this name" in capsys.readouterr().err
     (tmp_path / "package.xml").write_text("<package/>")
     assert main(["my_own", "--output", str(tmp_path)]) == 1
-    assert "tells no name of the package" in capsys.readouterr().err
+    assert "does not contain the name of the package" in capsys.readouterr().err
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "package.xml"]

@@ -21,7 +21,7 @@ def test_wrong_sizes_are_refused(text, capsys):
     with pytest.raises(SystemExit) as stop:
         main(["rope_one_assistant", f"--size={text}"])
     assert stop.value.code == 2
-    assert f"'{text}' is no size: two numbers of 64 to 8192" in capsys.readouterr().err
+    assert f"'{text}' is not a size: use two numbers from 64 to 8192" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("text", ["", "30;60", "-1", "nan", "inf", "10,soon", "10,"])
