@@ -1,4 +1,4 @@
-"""Makes the paper's experiments again and reports them on one page."""
+"""Reproduces the paper's experiments and reports them on one page."""
 
 import argparse
 import sys

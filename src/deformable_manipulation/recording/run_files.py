@@ -22,13 +22,13 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
     The files of an earlier run are removed when ``overwrite`` is set: a later interruption must
     not leave files of two runs side by side.
 
-    Raises RecordingError: the folder holds a run already, or cannot be made or changed.
+    Raises RecordingError: the folder already contains a run, or cannot be made or changed.
     """
     try:
         present = [directory / name for name in ALL if (directory / name).exists()]
         if present and not overwrite:
             raise RecordingError(
-                "{} holds a run already ({}); choose another folder, or overwrite it with "
+                "{} already contains a run ({}); choose another folder, or overwrite it with "
                 "--force".format(directory, ", ".join(path.name for path in present))
             )
         directory.mkdir(parents=True, exist_ok=True)
@@ -36,7 +36,7 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
             path.unlink()
     except OSError as error:
         raise RecordingError(
-            f"cannot record into {directory}: {error.strerror}; choose a folder you may write to"
+            f"cannot record into {directory}: {error.strerror}; choose a writable folder"
         ) from error
 
 

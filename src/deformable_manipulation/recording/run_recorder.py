@@ -32,9 +32,9 @@ class RunRecorder:
         """Prepare the folder and write the scenario into it.
 
         ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
-        holds a run already.
+        already contains a run.
 
-        Raises RecordingError: the folder holds a run already or cannot be written.
+        Raises RecordingError: the folder already contains a run or cannot be written.
         """
         self.directory = Path(directory)
         self._scenario = scenario
