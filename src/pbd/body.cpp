@@ -58,7 +58,7 @@ void Body::hold(int particle, Hold type, const Pose& pose) {
   requirePose(pose);
   for (const HeldPoint& held : holds_) {
     if (held.particle == particle) {
-      throw std::invalid_argument("particle " + std::to_string(particle) + " is held already");
+      throw std::invalid_argument("particle " + std::to_string(particle) + " is already held");
     }
   }
   holds_.push_back({particle, type, pose, Twist()});

@@ -186,8 +186,8 @@ void Simulation::release(int agent) {
 void Simulation::hold(int agent, int particle, Hold type) {
   AgentState& holder = state(agent);
   if (holder.particle >= 0) {
-    throw std::logic_error(agents_[agent].name + " holds particle " + std::to_string(holder.particle) +
-                           " already; release it first");
+    throw std::logic_error(agents_[agent].name + " already holds particle " + std::to_string(holder.particle) +
+                           "; release it first");
   }
   const double distance = (body_->pose(particle).position - holder.pose.position).norm();
   if (distance > kGripReach) {

@@ -75,7 +75,7 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
   }
   if (!poses_.fresh(ros::Time::now())) {
     warn("is lost: no pose on " + subscriber_.getTopic() + " newer than " + seconds(timeout_) +
-         "; no states until it comes");
+         "; no states are published until one arrives");
     return false;
   }
   return poses_.distanceFrom(present.position) < kCaughtUp;
@@ -85,7 +85,7 @@ pbd::Twist AgentLink::commanded() const {
   const std::vector<std::string> senders = presentSenders();
   if (senders.size() > 1) {
     warn("stands still: " + std::to_string(senders.size()) + " nodes send commands on " + subscriber_.getTopic() +
-         ", " + joined(senders) + "; leave one of them");
+         ", " + joined(senders) + "; stop all but one");
     return pbd::Twist();
   }
   if (lockstep_) {
@@ -132,14 +132,14 @@ void AgentLink::receiveCommand(const ros::MessageEvent<geometry_msgs::TwistStamp
   const ros::Time latest = lockstep_ ? newest_state_ : ros::Time::now() + ros::Duration(timeout_);
   const std::string fault = commands_.receive(*event.getConstMessage(), latest);
   if (!fault.empty()) {
-    warn("gets a command that is dropped: " + fault);
+    warn("ignores a command: " + fault);
   }
 }
 
 void AgentLink::receivePose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
   const std::string fault = poses_.receive(*pose);
   if (!fault.empty()) {
-    warn("gets a pose that is dropped: " + fault);
+    warn("ignores a pose: " + fault);
   }
 }
 

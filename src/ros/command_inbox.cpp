@@ -23,7 +23,7 @@ std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, co
         << kLargestSpeed << " and " << kLargestAngularSpeed;
   } else if (command.header.stamp > latest) {
     why << "its stamp " << command.header.stamp
-        << " is in the future; set it to that of the state answered, and keep the computers' clocks together";
+        << " is in the future; set it to that of the state answered, and synchronise the computers' clocks";
   } else if (received_ && (command.header.stamp < stamp_ || (command.header.stamp == stamp_ && !isStop(twist)))) {
     why << "its stamp " << command.header.stamp << " is not newer than the last one, " << stamp_;
   } else {

@@ -26,7 +26,7 @@ void RunControl::countCycle() {
 bool RunControl::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   reset_wanted_ = true;
   response.success = true;
-  response.message = "Back to the settled start with the next cycle.";
+  response.message = "Returns to the settled start in the next cycle.";
   return true;
 }
 
@@ -34,7 +34,7 @@ bool RunControl::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::R
   paused_ = request.data;
   steps_ = 0;
   response.success = true;
-  response.message = paused_ ? "Paused; step goes on cycle by cycle." : "Goes on.";
+  response.message = paused_ ? "Paused; call step to advance by cycles." : "Continues.";
   return true;
 }
 
@@ -43,7 +43,7 @@ bool RunControl::step(Step::Request& request, Step::Response& response) {
   if (paused_) {
     const unsigned cycles = std::max<unsigned>(request.cycles, 1);
     steps_ += cycles;
-    response.message = "Goes on for " + std::to_string(cycles) + " cycles.";
+    response.message = "Continues for " + std::to_string(cycles) + " cycles.";
   } else {
     response.message = "Nothing changed: the simulation is not paused; call pause with data: true first.";
   }

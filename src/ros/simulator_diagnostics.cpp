@@ -53,7 +53,7 @@ void SimulatorDiagnostics::reportLoop(Status& status) {
   const double elapsed = (now_.begun - last_.begun).toSec();
   const double cycle_time = simulation_.clock().cycleTime();
   status.addf("cycles per second", "%.1f", last_.cycles / elapsed);
-  status.addf("overruns, in all", "%ld", overruns_);
+  status.addf("overruns, total", "%ld", overruns_);
   if (last_.cycles > 0) {
     status.addf("work per cycle [ms], mean", "%.3f", 1e3 * last_.busy / last_.cycles);
     status.addf("work per cycle [ms], largest", "%.3f", 1e3 * last_.busiest);
@@ -61,7 +61,7 @@ void SimulatorDiagnostics::reportLoop(Status& status) {
   if (last_.cycles == 0 && control_.halted()) {
     status.summary(DiagnosticStatus::OK, "Paused.");
   } else if (last_.cycles == 0) {
-    status.summary(DiagnosticStatus::STALE, "Stands still: waits for other nodes (see the log).");
+    status.summary(DiagnosticStatus::STALE, "Stands still: waiting for other nodes (see the log).");
   } else if (last_.overruns > 0) {
     const bool most = 2 * last_.overruns > last_.cycles;
     status.summaryf(most ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,

@@ -85,7 +85,7 @@ class FaultClockTest(FaultTest):
         self.clock.stands = True
         self.addCleanup(setattr, self.clock, "stands", False)
         start = len(self.states)
-        self.assert_says("assistant_1 gets a command that is dropped", "not newer")
+        self.assert_says("assistant_1 ignores a command", "not newer")
         self.assert_says("assistant_1 stands still: no command on /assistant_1/cmd_vel")
         moving = self.moving_cycles(start)
         rospy.loginfo("%s: moved for %d cycles", self.id(), moving)

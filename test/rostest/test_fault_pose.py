@@ -59,9 +59,7 @@ class FaultPoseTest(FaultTest):
         )
 
     def test_late(self):
-        self.assert_stops_and_goes_on(
-            late, "leader gets a pose that is dropped: its stamp", "not newer"
-        )
+        self.assert_stops_and_goes_on(late, "leader ignores a pose: its stamp", "not newer")
 
     def test_not_finite(self):
         self.assert_stops_and_goes_on(not_finite, "it is not finite")

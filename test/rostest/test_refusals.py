@@ -185,7 +185,7 @@ class RefusalsTest(unittest.TestCase):
         two_assistants = SHORT_ROPE.with_name("two_assistants.yaml")
         self.assert_launch_refuses(
             two_assistants,
-            'give assistants:="middle_assistant end_assistant"',
+            'use assistants:="middle_assistant end_assistant"',
             arguments=["assistants:=end_assistant", "lockstep:=true"],
         )
 

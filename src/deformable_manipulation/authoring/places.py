@@ -70,5 +70,5 @@ def _package_name(manifest: Path) -> str:
     except (ElementTree.ParseError, OSError, UnicodeDecodeError) as error:
         raise ValueError("{} cannot be read: {}".format(manifest, error)) from error
     if not name:
-        raise ValueError("{} tells no name of the package".format(manifest))
+        raise ValueError("{} does not contain the name of the package".format(manifest))
     return name

@@ -65,7 +65,7 @@ def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
             continue
         if _starts_clear(varied):
             return varied
-        reason = "the object starts too near to the obstacles"
+        reason = "the object starts too close to the obstacles"
     raise NoVariation(
         f"run {index}: none of {_ATTEMPTS} random variations can be started: {reason}"
     )

@@ -41,8 +41,8 @@ def run_here(campaign: Campaign, indices: Sequence[int], workers: int) -> Iterat
         except BrokenProcessPool:
             continue
     raise WorkersLost(
-        f"workers ended {_TRIES} times, killed perhaps for want of memory; {len(open_runs)} runs "
-        f"are not done, the first of them {min(open_runs)}. Fewer --workers may help"
+        f"workers ended {_TRIES} times, perhaps for lack of memory; {len(open_runs)} runs "
+        f"are not done, the first of them {min(open_runs)}. Try fewer --workers"
     )
 
 
@@ -107,8 +107,8 @@ def _await_worker(client, address: str) -> None:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except distributed.TimeoutError:
         raise WorkersLost(
-            f"no worker has come to the scheduler at {address} within {_PATIENCE:g} s; start some "
-            f"where this package is: dask worker {address}"
+            f"no worker connected to the scheduler at {address} within {_PATIENCE:g} s; start some "
+            f"on machines with this package: dask worker {address}"
         ) from None
 
 

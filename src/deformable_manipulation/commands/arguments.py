@@ -32,7 +32,7 @@ def add_scenario_arguments(
         type=override,
         action="append",
         default=[],
-        help="replace a value of the scenario; list items by index; can be given several times",
+        help="replace a value of the scenario; use an index for list items; can be repeated",
     )
 
 
@@ -41,7 +41,7 @@ def override(text: str) -> Tuple[str, str]:
     key, sign, value = text.partition("=")
     if not key or not sign:
         raise argparse.ArgumentTypeError(
-            f"'{text}' is not of the form key.path=value, as in controller.gain=2"
+            f"'{text}' does not have the form key.path=value, as in controller.gain=2"
         )
     return key.strip(), value
 
@@ -58,7 +58,7 @@ def overrides(text: str) -> List[Tuple[str, str]]:
 def folder_name(text: str) -> Path:
     """The folder that a user names; raises argparse.ArgumentTypeError for an empty name."""
     if not text.strip():
-        raise argparse.ArgumentTypeError("is empty; give the name of a folder, . for this one")
+        raise argparse.ArgumentTypeError("is empty; name a folder (. is the current one)")
     return Path(text)
 
 
@@ -70,6 +70,6 @@ def times_of(text: str) -> Sequence[float]:
         times = [-1.0]
     if not all(0.0 <= time < float("inf") for time in times):
         raise argparse.ArgumentTypeError(
-            f"'{text}' are no times: numbers from 0 on, separated by commas, as in 30,60,130"
+            f"'{text}' is not a list of times: use numbers >= 0 and commas, as in 30,60,130"
         )
     return times

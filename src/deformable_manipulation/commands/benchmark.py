@@ -1,4 +1,4 @@
-"""Measures how fast the package is, beside other libraries on the same work."""
+"""Measures the speed of the package, compared with other libraries on the same work."""
 
 import argparse
 import sys
@@ -23,13 +23,13 @@ NAME = "benchmark"
 DOCUMENT = Path("docs") / "benchmarks.md"
 EPILOG = """examples:
   benchmark rod                                  tables on the terminal
-  benchmark rod --output results                 and as JSON, CSV and Markdown
+  benchmark rod --output results                 also as JSON, CSV and Markdown
   benchmark qp --quick                           fewer and shorter repetitions
-  benchmark rod --update-docs                    and in docs/benchmarks.md, with the machine
-  benchmark --install-rivals                     make the other libraries' environment
+  benchmark rod --update-docs                    also in docs/benchmarks.md, with the machine
+  benchmark --install-rivals                     install the other libraries
 
-Leave the machine alone while it measures. docs/benchmarks.md tells how it is done.
-exit status: 0 measured, and written where asked for; 1 not (the reason is on stderr); 2 wrong usage
+Run nothing else on the machine while it measures. docs/benchmarks.md explains the method.
+exit status: 0 measured and written; 1 failed (the reason is on stderr); 2 wrong usage
 """
 
 
@@ -58,13 +58,15 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     subjects = "\n".join(f"  {name:10} {subject.summary}" for name, subject in SUBJECTS.items())
     parser = argparse.ArgumentParser(
         prog=NAME,
-        description="Measure how fast the package is, beside other libraries on the same work.\n\n"
-        "subjects:\n" + subjects,
+        description="Measure the speed of the package, compared with other libraries on the same "
+        "work.\n\nsubjects:\n" + subjects,
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("subject", nargs="?", choices=list(SUBJECTS), help="what is measured")
-    parser.add_argument("--quick", action="store_true", help="a few short repetitions, for a look")
+    parser.add_argument("subject", nargs="?", choices=list(SUBJECTS), help="what to measure")
+    parser.add_argument(
+        "--quick", action="store_true", help="only a few short repetitions, for a rough result"
+    )
     parser.add_argument(
         "--output",
         metavar="DIR",
@@ -77,7 +79,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         type=Path,
         nargs="?",
         const=checkout() / DOCUMENT,
-        help=f"put the tables into a document, between its markers (default: {DOCUMENT})",
+        help=f"write the tables into their blocks of a document (default: {DOCUMENT})",
     )
     parser.add_argument(
         "--rivals",
@@ -87,7 +89,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="virtual environment of the other libraries (default: %(default)s)",
     )
     parser.add_argument(
-        "--install-rivals", action="store_true", help="make that environment, then go on"
+        "--install-rivals", action="store_true", help="create that environment, then continue"
     )
     arguments = parser.parse_args(argv)
     if not (arguments.subject or arguments.install_rivals):

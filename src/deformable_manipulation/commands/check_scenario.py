@@ -66,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--resolved",
         action="store_true",
-        help="print the scenario as YAML, with everything filled in, and nothing else",
+        help="print only the scenario, as YAML with everything filled in",
     )
     add_launch_arguments(parser)
     return parser
@@ -78,7 +78,7 @@ def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
     from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
     if scenario.name != file_name:
-        yield "name: its runs and pictures will be called '{}', the file is called '{}'".format(
+        yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
             scenario.name, file_name
         )
     yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings

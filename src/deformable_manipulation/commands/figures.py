@@ -75,7 +75,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     arguments = parser.parse_args(argv)
     unknown = [name for name in arguments.names if name not in SUBJECTS_BY_BLOCK]
     if unknown:
-        parser.error(f"there is no table {', '.join(unknown)}")
+        parser.error(f"unknown table {', '.join(unknown)}")
     if not (arguments.check or arguments.names):
         parser.error("name a table, or use --check")
     if arguments.check and arguments.accept:

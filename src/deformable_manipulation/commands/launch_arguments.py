@@ -21,7 +21,7 @@ _BOOLS = ("true", "false")
 def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of launch files, each as one text."""
     group = parser.add_argument_group(
-        "for launch files", "mistakes in a launch's own arguments, before any node starts"
+        "for launch files", "check the arguments of a launch before any node starts"
     )
     group.add_argument(
         "--sets",
@@ -34,26 +34,26 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         "--assistants",
         metavar="NAMES",
         type=str.split,
-        help="assistants that the scenario must have, separated by blanks",
+        help="assistants that must be in the scenario, separated by blanks",
     )
     group.add_argument(
         "--all-assistants",
         action="store_true",
-        help="--assistants must name all of them: a lock-step run waits for each",
+        help="--assistants must name all assistants: a lock-step run waits for each of them",
     )
     group.add_argument(
         "--one-process",
         metavar="BOOL",
-        help="false: each controller has a process of its own; none: a computer of its own",
+        help="false: each controller in its own process; none: on its own computer",
     )
     group.add_argument("--leader-input", metavar="INPUT", help=" or ".join(LEADER_INPUTS))
     group.add_argument(
-        "--drag-obstacles", metavar="BOOL", help="true: an obstacle must have motion.topic"
+        "--drag-obstacles",
+        metavar="BOOL",
+        help="true: at least one obstacle must have motion.topic",
     )
-    group.add_argument("--leader", metavar="NAME", help="the leader that the scenario must have")
-    group.add_argument(
-        "--output", metavar="DIR", help="folder that must be there and take a recording"
-    )
+    group.add_argument("--leader", metavar="NAME", help="name of the scenario's leader")
+    group.add_argument("--output", metavar="DIR", help="writable folder for a recording")
 
 
 def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
@@ -68,7 +68,7 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
     if arguments.leader not in (None, leader):
         yield Problem(
             "leader",
-            f"is not the scenario's leader; give leader:={leader}",
+            f"is not the scenario's leader; use leader:={leader}",
             f"'{arguments.leader}'",
         )
     if arguments.output is not None:
@@ -90,7 +90,7 @@ def _drag_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterato
     if arguments.drag_obstacles == "true" and not moved:
         yield Problem(
             "drag_obstacles",
-            "no obstacle has motion.topic, so none can be dragged; give one, as in "
+            "no obstacle has motion.topic, so none can be dragged; set one, as in "
             "set:='obstacles.0.motion={topic: block}'",
             "'true'",
         )
@@ -103,18 +103,18 @@ def _assistant_problems(arguments: argparse.Namespace, scenario: Scenario) -> It
         if name not in known:
             yield Problem(
                 "assistants",
-                "is no assistant of the scenario;{} assistants: {}".format(
+                "is not an assistant of the scenario;{} assistants: {}".format(
                     nearest(name, known), ", ".join(known)
                 ),
                 f"'{name}'",
             )
     if len(set(given)) < len(given):
-        yield Problem("assistants", "names one twice", f"'{' '.join(given)}'")
+        yield Problem("assistants", "contains a name twice", f"'{' '.join(given)}'")
     absent = [name for name in known if name not in given]
     if arguments.all_assistants and absent:
         yield Problem(
             "assistants",
-            'lacks {}, and a lock-step run waits for every assistant; give assistants:="{}"'.format(
+            'lacks {}, but a lock-step run waits for every assistant; use assistants:="{}"'.format(
                 ", ".join(absent), " ".join(known)
             ),
             f"'{' '.join(given)}'",
@@ -127,8 +127,8 @@ def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> 
     if arguments.one_process in ("false", "none"):
         yield Problem(
             "controller.cooperation",
-            "one process decides for all assistants then; leave out one_process:=false (and "
-            f"agent.launch, for an assistant's own computer), or make it {DECENTRALISED}",
+            "then one process decides for all assistants; do not use one_process:=false or "
+            f"agent.launch, or change it to {DECENTRALISED}",
             f"'{CENTRALISED}'",
         )
     elif arguments.assistants:
@@ -136,7 +136,7 @@ def _cooperation_problems(arguments: argparse.Namespace, scenario: Scenario) -> 
         if set(known) - set(arguments.assistants):
             yield Problem(
                 "assistants",
-                'must be all of a centralised scenario, or none; give assistants:="{}"'.format(
+                'must be all of a centralised scenario, or none; use assistants:="{}"'.format(
                     " ".join(known)
                 ),
                 f"'{' '.join(arguments.assistants)}'",
@@ -147,17 +147,14 @@ def _knowledge_problems(scenario: Scenario) -> Iterator[Problem]:
     if not scenario.knowledge.perfect:
         yield Problem(
             "knowledge",
-            "is of runs without ROS (run_scenario, run_campaign): nodes know what they are told; "
-            "remove the section",
+            "applies only to runs without ROS (run_scenario, run_campaign); remove the section",
         )
 
 
 def _folder_problems(folder: str) -> Iterator[Problem]:
     if not os.path.exists(folder):
-        yield Problem("output", "does not exist; make the folder, or give another", f"'{folder}'")
+        yield Problem("output", "does not exist; create the folder, or name another", f"'{folder}'")
     elif not os.path.isdir(folder):
-        yield Problem("output", "is no folder; give one", f"'{folder}'")
+        yield Problem("output", "is not a folder; name a folder", f"'{folder}'")
     elif not os.access(folder, os.W_OK | os.X_OK):
-        yield Problem(
-            "output", "is a folder that you may not write to; give another", f"'{folder}'"
-        )
+        yield Problem("output", "is not writable; name another folder", f"'{folder}'")

@@ -26,16 +26,16 @@ from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.text_files import read_text
 
 NAME = "new_scenario"
-DESCRIPTION = """Make a scenario of your own: a scenario file with comments on what to change, a
-launch file and an RViz configuration, which run as they are. They go side by side into a folder,
-or, where that is the root of a catkin package, into its config/scenarios, launch and rviz."""
+DESCRIPTION = """Make your own scenario: a scenario file with comments on what to change, a launch
+file and an RViz configuration. They run without changes. They are written into one folder, or, if
+that is the root of a catkin package, into its config/scenarios, launch and rviz."""
 EXAMPLES = """examples:
   new_scenario my_rope                                    in this folder
   new_scenario my_sheet --object fabric --material felt --output my_sheet
   new_scenario my_hills --from rope_two_assistants        a copy of a scenario to change
   new_scenario my_rope --output ~/catkin_ws/src/my_package
 
-exit status: 0 the files are made, 1 they are not (the reason is on stderr), 2 wrong usage
+exit status: 0 the files were written, 1 they were not (the reason is on stderr), 2 wrong usage
 """
 
 # REP-144, as for packages: the name becomes part of file names and of what roslaunch completes.
@@ -72,7 +72,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="DIR",
         type=folder_name,
         default=Path("."),
-        help="folder, made if it is not there (default: this one)",
+        help="output folder, created if missing (default: the current one)",
     )
     origin = parser.add_mutually_exclusive_group()
     origin.add_argument(
@@ -84,7 +84,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="SCENARIO",
         help="the scenario to start from: a file, or the name of one of this package",
     )
-    parser.add_argument("--material", help="of the object; docs/materials.md lists the materials")
+    parser.add_argument(
+        "--material", help="material of the object; docs/materials.md lists the materials"
+    )
     return parser.parse_args(argv)
 
 
@@ -96,8 +98,8 @@ def scenario_name(text: str) -> str:
     better = "_".join(words).lstrip("0123456789_")[:_LONGEST_NAME].rstrip("_")
     hint = f"; try '{better}'" if _SCENARIO_NAME.fullmatch(better) else ""
     raise argparse.ArgumentTypeError(
-        f"'{text}' is no name for a scenario: lower-case letters, digits and single underscores, "
-        f"beginning with a letter, 2 to {_LONGEST_NAME} characters{hint}"
+        f"'{text}' is not a valid scenario name: use lower-case letters, digits and single "
+        f"underscores, start with a letter, 2 to {_LONGEST_NAME} characters{hint}"
     )
 
 
@@ -113,8 +115,8 @@ def _make(arguments: argparse.Namespace) -> Places:
         )
     except NoMaterial:
         raise Refused(
-            f"--material: the object of {arguments.source} has no key material; give it one, and "
-            "remove the values that the material is to give"
+            f"--material: the object of {arguments.source} has no key material; add the key, and "
+            "remove the values that the material defines"
         ) from None
     overrides = [] if arguments.material is None else [("object.material", arguments.material)]
     expected = dataclasses.replace(load_scenario(source, overrides), name=arguments.name)
@@ -138,10 +140,10 @@ def _source(arguments: argparse.Namespace) -> Path:
 
 def _check_places(places: Places) -> None:
     if places.root.exists() and not places.root.is_dir():
-        raise Refused(f"--output: {places.root} is no folder")
+        raise Refused(f"--output: {places.root} is not a folder")
     there = [str(file) for file in places.files if os.path.lexists(str(file))]
     if there:
-        raise Refused("{} exists already; choose another name or folder".format(", ".join(there)))
+        raise Refused("{} already exists; choose another name or folder".format(", ".join(there)))
 
 
 def _write(texts: Mapping[Path, str], expected: Scenario) -> None:
@@ -155,7 +157,7 @@ def _write(texts: Mapping[Path, str], expected: Scenario) -> None:
                 file.write(text)
         if load_scenario(made[0]) != expected:
             raise Refused(
-                "the scenario cannot be copied as it is written (values with YAML aliases?); "
+                "the scenario cannot be copied automatically (does it use YAML aliases?); "
                 f"copy the file by hand to {made[0]}"
             )
     except BaseException:

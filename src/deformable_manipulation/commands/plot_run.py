@@ -13,11 +13,11 @@ from deformable_manipulation.recording.frame_reader import read_frames
 
 NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")
-DESCRIPTION = """Make the data plots of a run. One figure per controller: distance with its offset
-(cut off at five times that), tracking error, margins to overstretch and proximity,
-nominal and commanded velocity. One overview: overlaid snapshots of obstacles, object and agents,
-the places that the assistants would keep, and distance, errors and margins of all of them.
-As wide as one column of a paper (3.5 in), in letters of 8 points, as PNG and as PDF."""
+DESCRIPTION = """Draw the data plots of a run. One figure per controller: distance and its offset
+(cut off at five times the offset), tracking error, overstretch and proximity margins, nominal and
+commanded velocity. One overview: overlaid snapshots of obstacles, object and agents, the places
+that the assistants should keep, and distance, errors and margins of all assistants. The figures
+fit one column of a paper (3.5 in, 8-point text), as PNG and as PDF."""
 EXAMPLES = """examples:
   plot_run output/rope_one_assistant_20250131_120000
   plot_run run.bag --output figures --format pdf
@@ -63,7 +63,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--output",
         metavar="DIR",
         type=folder_name,
-        help="where to write (default: beside the run)",
+        help="output folder (default: next to the run)",
     )
     parser.add_argument(
         "--format",
@@ -76,9 +76,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--times",
         type=times_of,
         metavar="T1,T2,...",
-        help="seconds at which the overview shows the object (default: telling ones)",
+        help="times [s] at which the overview shows the object (default: characteristic times)",
     )
-    parser.add_argument("--namespace", help="which run, where a bag holds several side by side")
+    parser.add_argument("--namespace", help="which run, if the bag holds several")
     parser.add_argument("--show", action="store_true", help="also open the figures in windows")
     return parser.parse_args(argv)
 

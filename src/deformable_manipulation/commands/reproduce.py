@@ -1,4 +1,4 @@
-"""Makes the paper's experiments again and reports them on one page."""
+"""Reproduces the paper's experiments and reports them on one page."""
 
 import argparse
 import sys
@@ -17,10 +17,10 @@ from deformable_manipulation.system.program import ProgramError
 
 NAME = "reproduce"
 REPORT = "report.html"
-DESCRIPTION = """Run the scenarios with the full formulation, the paper's, and the safety filter
-off; draw their data plots, overviews and RViz pictures; run small campaigns; and write one HTML
-page with all of it and the paper's execution times beside those of this machine. Without a display,
-in minutes."""
+DESCRIPTION = """Run the scenarios with the full formulation, with the paper's formulation and
+without the safety filter. Draw data plots, overviews and RViz pictures, run small campaigns, and
+write one HTML page with all results and the paper's execution times next to those of this machine.
+This takes minutes and needs no display."""
 EXAMPLES = """examples:
   reproduce
   reproduce rope_one_assistant rope_two_assistants --output output/ropes
@@ -77,13 +77,13 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         type=_count,
         default=40,
         metavar="N",
-        help="random runs of each rope and formulation; 0: none (%(default)s)",
+        help="number of random runs for each rope and formulation; 0: none (%(default)s)",
     )
     parser.add_argument(
         "--no-pictures",
         dest="pictures",
         action="store_false",
-        help="leave out RViz's pictures, which need ROS",
+        help="leave out the pictures from RViz, which need ROS",
     )
     parser.add_argument("--output", metavar="DIR", help="default: output/reproduce_<time>")
     return parser.parse_args(argv)

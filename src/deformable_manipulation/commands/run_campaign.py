@@ -30,17 +30,16 @@ from deformable_manipulation.scenario import ScenarioError, load_scenario, scena
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.interruption import exit_status, interruptible
 
-DESCRIPTION = """Run a scenario many times, without ROS, each time with another smooth random path
-of the leader, other obstacles of the same kind, other starts and another material, and count
-violated limits, deadlocks, relaxed programs and oscillation. The same seed gives the same runs,
-whoever does them. Writes campaign.json, runs.csv, campaign.png and worst.yaml, the scenario of the
-worst run.
+DESCRIPTION = """Run a scenario many times without ROS and count violated limits, deadlocks,
+relaxed programs and oscillation. Each run has a random smooth path of the leader, random obstacles
+of the same kind, other starts and another material. The same seed gives the same runs on every
+machine. Writes campaign.json, runs.csv, campaign.png and worst.yaml, the scenario of the worst run.
 """
 EPILOG = """examples:
   run_campaign rope_one_assistant --runs 200 --seed 1
   run_campaign rope_two_assistants --runs 50 --speed 0.15 --output output/fast
   run_campaign rope_one_assistant --runs 2000 --cluster tcp://10.0.0.1:8786
-  run_scenario output/fast/worst.yaml      # the worst run again
+  run_scenario output/fast/worst.yaml      # repeats the worst run
 
 The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
 deadlocked, and no program failed; 3 otherwise.
@@ -69,7 +68,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     add_scenario_arguments(parser)
     defaults = Ranges()
     parser.add_argument(
-        "--runs", type=_positive(int), default=100, metavar="N", help="how many (%(default)s)"
+        "--runs", type=_positive(int), default=100, metavar="N", help="number of runs (%(default)s)"
     )
     parser.add_argument(
         "--seed", type=_natural, default=0, metavar="S", help="0 or more (%(default)s)"
@@ -79,28 +78,28 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         type=_speed,
         default=defaults.speed,
         metavar="M/S",
-        help="that no component of the leader's velocity exceeds (%(default)s)",
+        help="limit of each component of the leader's velocity (%(default)s)",
     )
     parser.add_argument(
         "--duration",
         type=_positive(float),
         default=defaults.duration,
         metavar="S",
-        help="of each run (%(default)s)",
+        help="duration of each run (%(default)s)",
     )
     parser.add_argument(
         "--clearance",
         type=_positive(float),
         default=defaults.clearance,
         metavar="M",
-        help="that the leader's grip keeps from the obstacles (%(default)s)",
+        help="distance of the leader's grip from the obstacles (%(default)s)",
     )
     parser.add_argument(
         "--material",
         type=_factor,
         default=defaults.material,
         metavar="FACTOR",
-        help="stiffness and weight are changed by up to this factor (%(default)s)",
+        help="change stiffness and weight by up to this factor (%(default)s)",
     )
     parser.add_argument(
         "--own-terrain",
@@ -111,16 +110,16 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--imperfect",
         action="store_true",
-        help="the controllers know less than all, each by a random amount: noise up to 2 mm and "
-        "delay up to 50 ms on poses, material wrong by up to a factor of 2, up to 20 %% of the "
-        "cycles dropped",
+        help="make the controllers' knowledge imperfect, randomly: pose noise of up to 2 mm, "
+        "pose delay of up to 50 ms, material wrong by up to a factor of 2, up to 20 %% dropped "
+        "cycles",
     )
     parser.add_argument(
         "--tolerance",
         type=float,
         default=0.001,
         metavar="M",
-        help="up to which a violation does not count (%(default)s)",
+        help="smaller violations do not count (%(default)s)",
     )
     parser.add_argument(
         "--workers", type=_positive(int), metavar="N", help="processes (default: one per core)"
@@ -198,8 +197,7 @@ def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
         writable_folder(folder)  # now, not after hours of runs
     except OSError as error:
         raise OSError(
-            f"cannot write into {folder}: {error.strerror}; choose a folder you may write to with "
-            f"--output"
+            f"cannot write into {folder}: {error.strerror}; choose a writable folder with --output"
         ) from error
     return folder
 

@@ -71,7 +71,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--no-safety",
         dest="safety",
         action="store_false",
-        help="switch the safety filter off: follow the leader whatever is in the way",
+        help="switch the safety filter off: follow the leader regardless of obstacles",
     )
     parser.add_argument(
         "--force", action="store_true", help="overwrite the run in the output folder"
@@ -91,11 +91,11 @@ def _make_loop(scenario: Scenario, safety: bool):
 
 
 def _warn_of_start(distance: float, offset: float) -> None:
-    """A start within a limit is allowed, and rarely meant."""
+    """Warn of a start within a limit, which is allowed but rarely intended."""
     if distance < offset:
         print(
             f"run_scenario: WARNING: the object starts {1e3 * distance:.1f} mm from the obstacles, "
-            f"nearer than controller.collision.offset, {1e3 * offset:.1f} mm (negative: inside)",
+            f"closer than controller.collision.offset, {1e3 * offset:.1f} mm (negative: inside)",
             file=sys.stderr,
         )
 
@@ -106,8 +106,8 @@ def _warn_of_poses(scenario: Scenario) -> None:
     if names:
         print(
             f"run_scenario: WARNING: without ROS {', '.join(names)} moves as commanded, as with "
-            f"driven_by: command; for poses measured late and with noise see the section "
-            f"`knowledge` (docs/parameters.md)",
+            f"driven_by: command; to simulate late and noisy poses, use the section `knowledge` "
+            f"(docs/parameters.md)",
             file=sys.stderr,
         )
 

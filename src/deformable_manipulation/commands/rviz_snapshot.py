@@ -79,12 +79,12 @@ def _check(arguments: argparse.Namespace, source: SnapshotSource) -> None:
     if arguments.video:
         if source.frames is None:
             raise ValueError(
-                "--video: films recorded runs; record it first: "
+                "--video: only recorded runs can be filmed; record this one first: "
                 f"run_scenario {arguments.source} --output DIR, then rviz_snapshot DIR --video ..."
             )
         writable_folder(arguments.video.parent)
     elif arguments.speed is not None:
-        raise ValueError("--speed: is that of --video FILE.mp4, which is not given")
+        raise ValueError("--speed: needs --video FILE.mp4")
     if arguments.times is not None:
         writable_folder(arguments.output)
 

@@ -15,9 +15,9 @@ NAME = "rviz_snapshot"
 LEAST_SIZE, LARGEST_SIZE = 64, 8192  # pixels
 SEPARATE, OVERLAID, SIDE_BY_SIDE, AUTO = LAYOUTS = ("separate", "overlaid", "side_by_side", "auto")
 SIZE, SIZE_IN_A_ROW = (1280, 800), (640, 480)  # pixels
-DESCRIPTION = """Save pictures, or a video, of a run as RViz shows it. A recorded run is shown as it
-was; a scenario is run in lock-step for the pictures. On a ROS master and a virtual display of its
-own: nothing that runs already is disturbed, and no screen is needed."""
+DESCRIPTION = """Save pictures or a video of a run as RViz shows it. A recorded run is shown as it
+was recorded; a scenario is run in lock-step. The command uses its own ROS master and virtual
+display, so it needs no screen and does not disturb other nodes."""
 EXAMPLES = """examples:
   rviz_snapshot rope_one_assistant --times 30,60,130
   rviz_snapshot output/run --times 30,60,130,160 --layout overlaid
@@ -28,7 +28,7 @@ EXAMPLES = """examples:
   rviz_snapshot rope_one_assistant --set controller.collision.offset=0.1
 
 The pictures are named SCENARIO_tTIME.png or ..._LAYOUT.png; their paths are printed.
-exit status: 0 every picture is saved, 1 one is not (the reason is on stderr), 2 wrong usage
+exit status: 0 all pictures are saved, 1 one is not (the reason is on stderr), 2 wrong usage
 """
 
 
@@ -44,30 +44,30 @@ def parse_arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--times",
         type=times_of,
         metavar="SECONDS",
-        help="when to take pictures, separated by commas (default: half of the duration; for "
-        "several in one picture the lowest distance, the largest error and others)",
+        help="times of the pictures, separated by commas (default: half of the duration; for "
+        "several times in one picture, the lowest distance, the largest error and others)",
     )
     parser.add_argument(
         "--layout",
         choices=LAYOUTS,
         default=SEPARATE,
-        help="a picture of each time, or all in one: over each other, the earlier ones paler, or "
-        "in a row; with their times. auto: in a row where they would hide each other, those of "
-        "fabrics and moving obstacles, else over each other (default: separate)",
+        help="separate: one picture per time. overlaid: all in one picture, earlier ones paler. "
+        "side_by_side: all times in a row. auto: in a row for fabrics and moving obstacles, which "
+        "would hide each other, otherwise overlaid (default: separate)",
     )
     parser.add_argument(
         "--video",
         metavar="FILE.mp4",
         type=video_path,
-        help="film a recorded run; pictures are taken only of --times then",
+        help="film a recorded run; pictures are then taken only if --times is given",
     )
     parser.add_argument(
         "--speed",
         type=speed_of,
         metavar="FACTOR",
-        help="of the video, as a multiple of the run's (default: such that it lasts 20 s)",
+        help="speed of the video, as a multiple of real time (default: the video takes 20 s)",
     )
-    parser.add_argument("--namespace", help="which run, where a bag holds several side by side")
+    parser.add_argument("--namespace", help="which run, if the bag holds several")
     _add_picture_arguments(parser)
     return parser.parse_args(argv)
 
@@ -78,21 +78,21 @@ def _add_picture_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         type=folder_name,
         default=Path("."),
-        help="folder (default: this one)",
+        help="output folder (default: the current one)",
     )
     parser.add_argument(
         "--size",
         type=size_of,
         metavar="WIDTHxHEIGHT",
-        help="of a picture, in pixels (default: 1280x800; in a row 640x480)",
+        help="size of a picture in pixels (default: 1280x800; in a row 640x480)",
     )
     parser.add_argument("--view", metavar="NAME", help="a saved view of the RViz configuration")
     parser.add_argument(
         "--config",
         metavar="FILE",
         type=Path,
-        help="RViz configuration (default: that of the scenario; where it has none, a view that "
-        "holds the object, its way and the obstacles near that)",
+        help="RViz configuration (default: that of the scenario; if it has none, a view that shows "
+        "the object, its path and the obstacles nearby)",
     )
     parser.add_argument(
         "--timeout",
@@ -110,7 +110,8 @@ def size_of(text: str) -> Tuple[int, int]:
         number.isdecimal() and LEAST_SIZE <= int(number) <= LARGEST_SIZE for number in numbers
     ):
         raise argparse.ArgumentTypeError(
-            f"'{text}' is no size: two numbers of {LEAST_SIZE} to {LARGEST_SIZE}, as in 1280x800"
+            f"'{text}' is not a size: use two numbers from {LEAST_SIZE} to {LARGEST_SIZE}, "
+            "as in 1280x800"
         )
     return int(numbers[0]), int(numbers[1])
 
@@ -122,7 +123,7 @@ def speed_of(text: str) -> float:
     except ValueError:
         speed = 0.0
     if not 0.0 < speed < float("inf"):
-        raise argparse.ArgumentTypeError(f"'{text}' is no speed: a number above 0, as in 8")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a speed: use a number above 0, as in 8")
     return speed
 
 

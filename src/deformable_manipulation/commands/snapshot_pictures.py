@@ -102,7 +102,7 @@ class SnapshotPictures:
         times, speed = film_times(*self._source.time_range, speed)
         size = self._options.size
         height = round(_VIDEO_LETTERS * size[1])
-        print(f"{NAME}: filming at {speed:g} times the run's speed", file=sys.stderr)
+        print(f"{NAME}: filming at {speed:g} times real time", file=sys.stderr)
         pictures = self._studio.film(self._configuration, times, self._options.timeout)
         try:
             with video_file(path, size) as add:
@@ -118,7 +118,7 @@ class SnapshotPictures:
         for picture in self._pictures(times, self._without(*_CROWDED, _TRAILS)):
             pictures.append(picture)
             places.append(self._studio.leader)
-        print(f"{NAME}: taking pictures of what lies below and above them", file=sys.stderr)
+        print(f"{NAME}: taking pictures of the background and foreground", file=sys.stderr)
         self._studio.labels = time_labels(times, places)
         targets = [f"target_{agent.name}" for agent in self._source.scenario.agents]
         moving = (*_CROWDED, *_MOVING, *targets)
@@ -139,7 +139,7 @@ class SnapshotPictures:
 
     def _pictures(self, times: Sequence[float], configuration: dict) -> Iterator[np.ndarray]:
         for time in times:
-            print(f"{NAME}: going to {time:g} s", file=sys.stderr)
+            print(f"{NAME}: running to {time:g} s", file=sys.stderr)
             try:
                 self._studio.run.go_to(time, self._progress)
             finally:

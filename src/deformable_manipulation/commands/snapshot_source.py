@@ -89,11 +89,11 @@ def read_source(
     """
     if not _is_run(path):
         if namespace is not None:
-            raise RunDataError("--namespace is for bags; a scenario has none")
+            raise RunDataError("--namespace is only for bags")
         file = find_scenario(path).resolve()
         return SnapshotSource(load_scenario(path, overrides), file=file)
     if overrides:
-        raise RunDataError(f"--set cannot change {path}, which has been run already")
+        raise RunDataError(f"--set cannot change {path}, which is a recorded run")
     run = read_run(path, namespace)
     frames = read_frames(run)
     scenario = with_recorded_motion(frames)

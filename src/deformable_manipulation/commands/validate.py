@@ -26,13 +26,15 @@ CASE_NAMES = (
     "fabric_gradients",
 )
 DESCRIPTION = """Compare simulated rods and fabrics with independent solutions of their theory:
-shapes, reactions, twist, motion. Writes validation.md and its figures, images/validation_*.png."""
+shapes, reactions, twist and motion. Writes validation.md and its figures,
+images/validation_*.png."""
 EPILOG = """examples:
-  validate                               docs/validation.md, some minutes
-  validate --quick                       fewer segments, less than a minute
-  validate --case hanging --case twist   two cases alone
+  validate                               writes docs/validation.md, takes minutes
+  validate --quick                       fewer segments, takes less than a minute
+  validate --case hanging --case twist   only two cases
 
-exit status: 0 all within their tolerance, 1 one is not or a file cannot be written, 2 wrong usage
+exit status: 0 all within tolerance, 1 a tolerance is missed or a file cannot be written,
+2 wrong usage
 """
 
 
@@ -75,7 +77,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="NAME",
         action="append",
         choices=CASE_NAMES,
-        help="run this case alone; can be given several times: " + ", ".join(CASE_NAMES),
+        help="run only this case; can be given several times: " + ", ".join(CASE_NAMES),
     )
     parser.add_argument("--quick", action="store_true", help="fewer segments, substeps and cases")
     return parser.parse_args(argv)

@@ -11,6 +11,6 @@ def warn_of_standing_obstacles(command: str, scenario: Scenario) -> None:
     for name in names_without_path(scenario):
         print(
             f"{command}: WARNING: obstacle {name!r} stands at its own pose: its motion comes from "
-            "ROS; start the launch file instead, or give it waypoints",
+            "ROS; use the launch file, or give the obstacle waypoints",
             file=sys.stderr,
         )

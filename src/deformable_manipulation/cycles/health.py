@@ -80,14 +80,14 @@ class CycleMonitor:
             silence = now - self._last
             return Report(
                 Level.STALE,
-                f"No state to answer for {silence:.1f} s: paused, or the simulator has gone.",
+                f"No state for {silence:.1f} s: paused, or the simulator is gone.",
             )
         rate = len(durations) / max(elapsed, 1e-9)
         values = {"states per second": f"{rate:.1f}"}
         values.update(_spread("computation", durations))
         if latencies:
             values.update(_spread("latency", latencies))
-            values["answers later than a cycle, in all"] = str(self._late)
+            values["answers later than a cycle, total"] = str(self._late)
         return Report(*self._judge(rate, latencies), values)
 
     def _judge(self, rate, latencies):
@@ -95,7 +95,7 @@ class CycleMonitor:
             return Level.OK, f"Answers every state, {rate:.0f} per second (lock-step)."
         if rate < _SLOW * self._rate:
             level = Level.WARN if rate >= _TOO_SLOW * self._rate else Level.ERROR
-            return level, f"Answers {rate:.0f} states per second in place of {self._rate:g}."
+            return level, f"Answers {rate:.0f} states per second instead of {self._rate:g}."
         late = sum(latency > 1.0 / self._rate for latency in latencies)
         if 2 * late > len(latencies):
             return Level.ERROR, "Most answers come later than a cycle: the chain is too slow."
@@ -118,7 +118,7 @@ class DecisionMonitor:
         """Report on the decisions since the last one."""
         decisions, self._decisions = self._decisions, []
         if not decisions:
-            return Report(Level.STALE, "Nothing to decide: no state has come.")
+            return Report(Level.STALE, "Nothing to decide: no state has arrived.")
         return Report(*_judge_decisions(decisions), _decision_values(decisions))
 
 
@@ -140,7 +140,7 @@ def _judge_decisions(decisions):
         return Level.WARN, last.text
     if last.status is Status.CONSTRAINED:
         changed = f"{count[Status.CONSTRAINED]} of {total} cycles"
-        return Level.OK, f"Departs from the nominal velocity in {changed}; all limits hold."
+        return Level.OK, f"Deviates from the nominal velocity in {changed}; all limits hold."
     return Level.OK, last.text
 
 

@@ -38,5 +38,5 @@ def find_age_fault(age, timeout):
     if age > timeout:
         return f"its stamp is {age:.1f} s old"
     if age < -timeout:
-        return f"its stamp is {-age:.1f} s in the future; keep the clocks together"
+        return f"its stamp is {-age:.1f} s in the future; synchronise the clocks"
     return ""

@@ -58,7 +58,13 @@ SUBJECT_LIST: Sequence[Subject] = (
         {"scenarios": README, "margins": RESULTS},
         "run_scenario NAME [--no-safety] [--set controller.formulation=paper]",
         CLOSED_LOOP,
-        scenarios.measure_scenarios,
+        scenarios.measure_ropes,
+    ),
+    Subject(
+        {"fabric_scenario": README, "fabric_margins": RESULTS},
+        "run_scenario fabric_three_assistants [--no-safety] [--set controller.formulation=paper]",
+        CLOSED_LOOP,
+        scenarios.measure_fabrics,
     ),
     Subject(
         {"moving_obstacle": SAFETY},

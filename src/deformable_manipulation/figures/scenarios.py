@@ -1,18 +1,18 @@
 """Tables of the scenarios that come with the package, measured with ``run_scenario``."""
 
-from typing import Dict, Tuple
+from typing import Dict, Sequence, Tuple
 
 from deformable_manipulation.figures.markdown import millimetres, table
 from deformable_manipulation.figures.runs import Say, run_scenario
 from deformable_manipulation.reproduction.plan import FULL, PAPER, UNFILTERED, VARIANTS
 
-SCENARIOS = (
+ROPES = (
     "rope_one_assistant",
     "stiff_rod_one_assistant",
     "rope_two_assistants",
     "rope_moving_obstacle",
-    "fabric_three_assistants",
 )
+FABRICS = ("fabric_three_assistants",)  # minutes each
 _MOVING_OBSTACLE = (
     (),
     ("--set", "controller.collision.obstacle_velocity=false"),
@@ -22,14 +22,19 @@ _MOVING_OBSTACLE = (
 _NEGLIGIBLE = 1e-6  # m
 
 
-def measure_scenarios(say: Say) -> Dict[str, str]:
+def measure_ropes(say: Say) -> Dict[str, str]:
     """Return the tables ``scenarios`` and ``margins``, which come from the same runs."""
-    runs = {
-        (name, variant): run_scenario(name, options, say)
-        for name in SCENARIOS
-        for variant, (_, options) in VARIANTS.items()
+    runs = _run_variants(ROPES, say)
+    return {"scenarios": _distances(ROPES, runs), "margins": _margins(ROPES, runs)}
+
+
+def measure_fabrics(say: Say) -> Dict[str, str]:
+    """Return the same tables of the fabric, ``fabric_scenario`` and ``fabric_margins``."""
+    runs = _run_variants(FABRICS, say)
+    return {
+        "fabric_scenario": _distances(FABRICS, runs),
+        "fabric_margins": _margins(FABRICS, runs),
     }
-    return {"scenarios": _distances(runs), "margins": _margins(runs)}
 
 
 def measure_moving_obstacle(say: Say) -> Dict[str, str]:
@@ -44,21 +49,30 @@ def measure_moving_obstacle(say: Say) -> Dict[str, str]:
     return {"moving_obstacle": table([*header, "programs relaxed"], rows)}
 
 
-def _distances(runs: Dict[Tuple[str, str], Dict]) -> str:
+def _run_variants(names: Sequence[str], say: Say) -> Dict[Tuple[str, str], Dict]:
+    """Summaries by scenario and variant."""
+    return {
+        (name, variant): run_scenario(name, options, say)
+        for name in names
+        for variant, (_, options) in VARIANTS.items()
+    }
+
+
+def _distances(names: Sequence[str], runs: Dict[Tuple[str, str], Dict]) -> str:
     header = ["lowest distance [mm]", "required", "this package", "paper's formulation"]
     rows = [
         [f"`{name}`", millimetres(runs[name, FULL]["offset"], 0)]
         + [millimetres(runs[name, each]["min_distance"]) for each in (FULL, PAPER, UNFILTERED)]
-        for name in SCENARIOS
+        for name in names
     ]
     return table([*header, "safety filter off"], rows)
 
 
-def _margins(runs: Dict[Tuple[str, str], Dict]) -> str:
+def _margins(names: Sequence[str], runs: Dict[Tuple[str, str], Dict]) -> str:
     header = ["scenario", "formulation", "required distance", "lowest distance"]
     header += ["overstretch margin", "error at the end", "programs relaxed; failed"]
     rows = []
-    for name in SCENARIOS:
+    for name in names:
         for variant in (FULL, PAPER):
             run = runs[name, variant]
             lengths = (run["offset"], run["min_distance"], run["min_margin"]["overstretch"])

@@ -69,7 +69,7 @@ class PoseTrack:
         if age > self._timeout:
             return f"no pose for {age:.1f} s"
         if math.isfinite(age) and age < -self._timeout:
-            return f"its pose is {-age:.1f} s in the future; keep the clocks together"
+            return f"its pose is {-age:.1f} s in the future; synchronise the clocks"
         return ""
 
     def at(self, now):

@@ -154,10 +154,8 @@ class FabricSpec(ObjectSpec):
                 (self.bending_compliance, "N m"),
             )
         )
-        return (
-            "{:.4g} kg/m^2, thickness {:.4g} m, stiffness to stretching {}, to bending {}".format(
-                self.density, self.thickness, *stiffnesses
-            )
+        return "{:.4g} kg/m^2, thickness {:.4g} m, stretching stiffness {}, bending stiffness {}".format(
+            self.density, self.thickness, *stiffnesses
         )
 
     def to_mapping(self) -> Dict[str, Any]:

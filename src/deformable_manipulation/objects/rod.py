@@ -144,7 +144,7 @@ class RodSpec(ObjectSpec):
         """What it is made of: the values that a material preset and the scenario give."""
         area = math.pi * self.radius**2
         return (
-            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; in all "
+            "{:.4g} kg/m^3, Young's modulus {:.4g} Pa, torsion modulus {:.4g} Pa; mass "
             "{:.4g} kg, bending stiffness {:.4g} N m^2".format(
                 self.density,
                 self.young_modulus,

@@ -69,7 +69,7 @@ class PictureAtRest:
         """What is amiss with the last picture."""
         if self.picture is None or not self._shows(self.picture):
             return "nothing was rendered: the 3D view is blank"
-        return "the picture did not come to rest"
+        return "the picture did not stop changing"
 
 
 def save_png(picture, path, description):

@@ -42,18 +42,18 @@ def _read_scenario(path: Path, reader: Reader, namespace: str) -> Scenario:
     except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
         raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
     raise RunDataError(
-        f"{path} holds no {TOPIC}, which tells its scenario; record with record:=true"
+        f"{path} contains no {TOPIC}, which tells its scenario; record with record:=true"
     )
 
 
 def _read_states(path: Path, reader: Reader, scenario: Scenario, namespace: str) -> Frames:
     if not connections_of(reader, OBJECT_STATE, namespace):
-        raise RunDataError(f"{path} holds no states of the object; record the topic state")
+        raise RunDataError(f"{path} contains no states of the object; record the topic state")
     every = max(1, round(scenario.controller.rate / scenario.simulation.record_rate))
     states = _messages(reader, OBJECT_STATE, namespace)
     frames = _of_last_run(states, every, lambda state: _frame(state, scenario))
     if not frames:
-        raise RunDataError(f"{path} holds no state of the object")
+        raise RunDataError(f"{path} contains no state of the object")
     cycles = sorted(frames)
     points, agents = zip(*(frames[cycle] for cycle in cycles))
     return Frames(

@@ -78,7 +78,7 @@ def _reindexed_copy(path: Path, folder: Path, reason: Exception) -> Path:
     )
     if result.returncode != 0:
         raise RunDataError(
-            f"{path} is damaged ({reason}), and 'rosbag reindex' cannot mend it: "
+            f"{path} is damaged ({reason}), and 'rosbag reindex' cannot repair it: "
             f"{result.stdout.strip()}"
         )
     return copy
@@ -88,6 +88,4 @@ def _enter_copy(stack: contextlib.ExitStack, path: Path, copy: Path) -> Reader:
     try:
         return stack.enter_context(Reader(copy))
     except DAMAGED as error:
-        raise RunDataError(
-            f"{path} is damaged beyond what 'rosbag reindex' mends: {error}"
-        ) from error
+        raise RunDataError(f"{path} is too damaged for 'rosbag reindex': {error}") from error

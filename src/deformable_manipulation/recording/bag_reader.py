@@ -68,7 +68,7 @@ def _topics_of_run(path: Path, reader: Reader, namespace: Optional[str]) -> List
     if not controllers:
         content = [f"{topic} ({types[topic]})" for topic in sorted(types)]
         raise RunDataError(
-            "{} holds no deformable_manipulation/msg/ControllerState; record the topics "
+            "{} contains no deformable_manipulation/msg/ControllerState; record the topics "
             "<agent>/controller_state and distances. It holds: {}".format(
                 path, ", ".join(content) or "nothing"
             )
@@ -87,13 +87,13 @@ def _choose_namespace(path: Path, present: List[str], wanted: Optional[str]) -> 
     if wanted is None:
         if len(present) > 1:
             raise RunDataError(
-                f"{path} holds several runs side by side; choose one with --namespace: {names}"
+                f"{path} contains several runs; choose one with --namespace: {names}"
             )
         return present[0]
     for name in present:
         if name.strip("/") == wanted.strip("/"):
             return name
-    raise RunDataError(f"{path} holds no namespace {wanted}, but: {names}")
+    raise RunDataError(f"{path} contains no namespace {wanted}; it contains: {names}")
 
 
 def _assemble(
@@ -109,7 +109,7 @@ def _assemble(
         track, _ = controller.last_run()
         same_reset = track.reset_count[-1] == reference.reset_count[-1]
         if not same_reset or track.received[-1] < reference.received[0]:
-            notes += (f"{controller.agent} is silent in the last run and left out",)
+            notes += (f"{controller.agent} sent nothing in the last run and is left out",)
             continue
         time = 1e-9 * (track.stamp - start)
         distance = track.columns["distance"]

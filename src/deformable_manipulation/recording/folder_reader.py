@@ -103,7 +103,7 @@ def _read_rows(path: Path) -> Tuple[List[str], List[List[str]]]:
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise RunDataError(f"{path} cannot be read: {error}") from error
     if not rows:
-        raise RunDataError(f"{path} holds no cycle: the run stopped before its first")
+        raise RunDataError(f"{path} contains no cycle: the run stopped before its first")
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
             raise RunDataError(
@@ -119,7 +119,7 @@ def _select_columns(
     missing = [name for name in wanted if name not in header]
     if missing:
         raise RunDataError(
-            "{} lacks the columns {}; it is no time series of a run".format(
+            "{} lacks the columns {}; it is not the time series of a run".format(
                 path, ", ".join(missing)
             )
         )

@@ -30,7 +30,7 @@ def read_frames(run: RunData) -> Frames:
 def _read_folder(folder: Path) -> Frames:
     path = folder / run_files.STATES
     if not os.path.exists(str(path)):
-        raise RunDataError(f"{folder} holds no {run_files.STATES}: there are no shapes to draw")
+        raise RunDataError(f"{folder} contains no {run_files.STATES}: there are no shapes to draw")
     try:
         with open_regular(path) as file, np.load(file) as states:
             arrays = {name: states[name] for name in states.files}
@@ -38,7 +38,7 @@ def _read_folder(folder: Path) -> Frames:
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise RunDataError(f"{path} cannot be read: {error}") from error
     if not len(times):
-        raise RunDataError(f"{path} holds no frame")
+        raise RunDataError(f"{path} contains no frame")
     try:
         scenario = load_scenario(folder / run_files.SCENARIO)
     except ScenarioError as error:

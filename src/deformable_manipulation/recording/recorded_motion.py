@@ -24,7 +24,7 @@ def with_recorded_motion(frames: Frames) -> Scenario:
         return scenario
     if frames.obstacles is None:
         raise RunDataError(
-            "the recording does not tell where the obstacles {} were; record the topic of the "
+            "the recording lacks the poses of the obstacles {}; record the topic of the "
             "distances".format(", ".join(names))
         )
     obstacles = list(scenario.obstacles)

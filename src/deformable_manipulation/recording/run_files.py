@@ -29,7 +29,7 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
         present = [directory / name for name in ALL if (directory / name).exists()]
         if present and not overwrite:
             raise RecordingError(
-                "{} holds a run already ({}); choose another folder, or overwrite it with "
+                "{} already contains a run ({}); choose another folder, or overwrite it with "
                 "--force".format(directory, ", ".join(path.name for path in present))
             )
         directory.mkdir(parents=True, exist_ok=True)
@@ -37,7 +37,7 @@ def prepare_folder(directory: Path, overwrite: bool) -> None:
             path.unlink()
     except OSError as error:
         raise RecordingError(
-            f"cannot record into {directory}: {error.strerror}; choose a folder you may write to"
+            f"cannot record into {directory}: {error.strerror}; choose a writable folder"
         ) from error
 
 

@@ -32,7 +32,7 @@ class RunRecorder:
         """Prepare the folder and write the scenario into it.
 
         ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
-        holds a run already.
+        already contains a run.
 
         Raises:
             RecordingError: the folder holds a run already or cannot be written.

@@ -1,1 +1,1 @@
-"""The paper's experiments again: runs, figures and tables in one report."""
+"""Reproduction of the paper's experiments: runs, figures and tables in one report."""

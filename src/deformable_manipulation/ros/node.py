@@ -31,7 +31,7 @@ def start(name):
     if not rospy.has_param("scenario"):
         refuse(
             f"Parameter {rospy.resolve_name('scenario')} is missing: start with "
-            "launch/run.launch, which checks the scenario file and puts it there."
+            "launch/run.launch, which checks the scenario file and sets the parameter."
         )
     try:
         return scenario_from_mapping(rospy.get_param("scenario"), ".", files_are_read=True)

@@ -82,7 +82,7 @@ class _Source:
 
     def _drop(self, reason):
         self._warnings.warn(
-            f"Obstacle '{self._obstacle.name}' gets a pose {self._origin} that is dropped: {reason}"
+            f"Obstacle '{self._obstacle.name}' ignores a pose {self._origin}: {reason}"
         )
 
 

@@ -36,7 +36,7 @@ def read_configuration(path, view, size):
     except TextFileError as error:
         raise ProgramError(f"{path} {error}") from error
     except (yaml.YAMLError, KeyError, TypeError) as error:
-        raise ProgramError(f"{path} is no RViz configuration: {error!r}") from error
+        raise ProgramError(f"{path} is not an RViz configuration: {error!r}") from error
 
 
 def bare_view(configuration, view, size):
@@ -52,7 +52,9 @@ def bare_view(configuration, view, size):
         saved = {each["Name"]: each for each in manager["Views"].get("Saved") or []}
         if view not in saved:
             names = ", ".join(f"'{name}'" for name in saved) or "none"
-            raise ProgramError(f"--view '{view}': no view of this name is saved; saved: {names}")
+            raise ProgramError(
+                f"--view '{view}': there is no saved view of this name; saved: {names}"
+            )
         manager["Views"]["Current"] = saved[view]
     manager["Global Options"]["Frame Rate"] = _FRAME_RATE
     manager["Displays"] = [each for each in manager["Displays"] if each["Class"] != _HANDLES]

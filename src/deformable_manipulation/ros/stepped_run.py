@@ -74,7 +74,7 @@ class SteppedRun:
             return
         answer = rospy.ServiceProxy("step", Step)(cycles)
         if not answer.success:
-            raise ProgramError(f"The run does not go on: {answer.message}")
+            raise ProgramError(f"The run does not continue: {answer.message}")
         for cycle in range(start + 1, start + cycles + 1):
             self._await_cycle(cycle)
             if progress is not None:
@@ -105,5 +105,6 @@ class SteppedRun:
         self._program.wait_until(
             lambda: self._cycle >= cycle,
             _TIMEOUT,
-            f"the run did not go on from {max(self._cycle, 0) * self._scenario.cycle_time:.2f} s",
+            "the run did not continue from "
+            f"{max(self._cycle, 0) * self._scenario.cycle_time:.2f} s",
         )

@@ -82,7 +82,7 @@ def read_window_dump(data):
     """
     count = len(_XWD_FIELDS)
     if len(data) < 4 * count:
-        raise ProgramError(f"The screen's window dump is cut off: {len(data)} bytes")
+        raise ProgramError(f"The screen's window dump is truncated: {len(data)} bytes")
     header = dict(zip(_XWD_FIELDS, np.frombuffer(data, ">u4", count).tolist()))
     if header["version"] != _XWD_VERSION or header["bits_per_pixel"] != 32:
         raise ProgramError(
@@ -92,7 +92,7 @@ def read_window_dump(data):
     start = header["header_size"] + _XWD_COLOR_SIZE * header["colors"]
     height, line = header["height"], header["bytes_per_line"]
     if len(data) < start + height * line:
-        raise ProgramError(f"The screen's window dump is cut off: {len(data)} bytes")
+        raise ProgramError(f"The screen's window dump is truncated: {len(data)} bytes")
     kind = "<u4" if header["byte_order"] == _LEAST_SIGNIFICANT_FIRST else ">u4"
     rows = np.frombuffer(data, kind, height * line // 4, start).reshape(height, -1)
     values = rows[:, : header["width"]].astype(np.uint32)

@@ -34,7 +34,7 @@ class ImperfectController:
         self._dropped = scenario.knowledge.dropped_cycles
         self._timeout = scenario.controller.timeout
         self._answered = 0.0  # s, time of the newest state that came
-        self._decisions = controller.wait("no state has come yet")
+        self._decisions = controller.wait("no state has arrived yet")
         self._truths = {
             scenario.agents[index].name: _Truth(scenario, index, controller)
             for index in scenario.assistants
@@ -47,7 +47,7 @@ class ImperfectController:
             self._answered = seen.time
             self._decisions = self._controller.update(seen)
         elif seen.time - self._answered > self._timeout:
-            self._decisions = self._controller.wait("no state has come for too long")
+            self._decisions = self._controller.wait("no state has arrived for too long")
         return {
             name: self._truths[name].told(decision, truth)
             for name, decision in self._decisions.items()

@@ -80,7 +80,7 @@ class Program:
         """A ProgramError, or another kind of it, with the end of what the program printed."""
         with open(str(self._log), errors="replace") as log:
             lines = _COLORS.sub("", log.read()).strip().splitlines()[-_LOG_LINES:]
-        printed = "\n  ".join([f"The last that {self.name} printed:"] + lines)
+        printed = "\n  ".join([f"Last output of {self.name}:"] + lines)
         return kind(f"{message}.\n{printed}" if lines else f"{message}.")
 
     def wait_until(self, condition, timeout, complaint, period=_POLLING_PERIOD):

@@ -47,7 +47,7 @@ def open_regular(path) -> Iterator[IO[bytes]]:
     # Opening a pipe would wait for somebody to write into it.
     with open(str(path), "rb", opener=_open_without_waiting) as file:
         if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise TextFileError("is no regular file, but a device, a pipe or the like")
+            raise TextFileError("is not a regular file but a device, a pipe or similar")
         yield file
 
 

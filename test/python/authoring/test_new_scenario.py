@@ -120,7 +120,7 @@ def test_nothing_is_overwritten_and_nothing_half_made(tmp_path, capsys, ending):
     there = tmp_path / ("my_own" + ending)
     there.write_text("mine")
     assert main(["my_own", "--output", str(tmp_path)]) == 1
-    assert f"{there} exists already" in capsys.readouterr().err
+    assert f"{there} already exists" in capsys.readouterr().err
     assert there.read_text() == "mine"
     assert list(tmp_path.iterdir()) == [there]
 
@@ -144,14 +144,14 @@ def test_names_that_are_none(tmp_path, capsys, name, hint):
         main([name, "--output", str(tmp_path)])
     assert caught.value.code == 2
     error = capsys.readouterr().err
-    assert "is no name for a scenario: lower-case letters" in error
+    assert "is not a valid scenario name: use lower-case letters" in error
     assert (f"; try '{hint}'" in error) if hint else ("try" not in error)
 
 
 @pytest.mark.parametrize(
     "arguments, expected",
     [
-        (["--output", ""], "is empty; give the name of a folder"),
+        (["--output", ""], "is empty; name a folder"),
         (["--object", "cloth"], "invalid choice"),
         (["--object", "rod", "--from", "rope_one_assistant"], "not allowed with"),
     ],
@@ -166,12 +166,12 @@ def test_wrong_usage(tmp_path, capsys, arguments, expected):
 def test_reasons_why_there_are_no_files(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main(["my_own", "--output", str(tmp_path / "file")]) == 1
-    assert "is no folder" in capsys.readouterr().err
+    assert "is not a folder" in capsys.readouterr().err
     assert main(["my_own", "--output", str(tmp_path / "file" / "below")]) == 1
     assert "Not a directory" in capsys.readouterr().err
     assert main(["my_own", "--from", "absent", "--output", str(tmp_path)]) == 1
     assert "no scenario of this name" in capsys.readouterr().err
     (tmp_path / "package.xml").write_text("<package/>")
     assert main(["my_own", "--output", str(tmp_path)]) == 1
-    assert "tells no name of the package" in capsys.readouterr().err
+    assert "does not contain the name of the package" in capsys.readouterr().err
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "package.xml"]

@@ -103,7 +103,7 @@ def test_a_folder_that_cannot_be_written_fails_before_any_run(tmp_path, monkeypa
 def test_a_folder_below_a_file_fails_before_any_run(tmp_path, capsys):
     (tmp_path / "file").touch()
     assert run_campaign.main([*SHORT, "--output", str(tmp_path / "file" / "out")]) == 1
-    assert "choose a folder you may write to with --output" in capsys.readouterr().err
+    assert "choose a writable folder with --output" in capsys.readouterr().err
 
 
 class Suicidal(Campaign):
@@ -190,4 +190,4 @@ def test_a_cluster_without_workers(scheduler, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(workers, "_PATIENCE", 0.1)
     arguments = [*SHORT, "--runs", "1", "--output", str(tmp_path / "none")]
     assert run_campaign.main([*arguments, "--cluster", scheduler[0]]) == 1
-    assert "no worker has come to the scheduler at tcp://127.0.0.1" in capsys.readouterr().err
+    assert "no worker connected to the scheduler at tcp://127.0.0.1" in capsys.readouterr().err

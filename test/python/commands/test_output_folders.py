@@ -22,4 +22,4 @@ def test_an_empty_name_is_wrong_usage(command, name, capsys):
     with pytest.raises(SystemExit) as caught:
         module.main([*COMMANDS[command], "--output", name])
     assert caught.value.code == 2
-    assert "--output: is empty; give the name of a folder" in capsys.readouterr().err
+    assert "--output: is empty; name a folder" in capsys.readouterr().err

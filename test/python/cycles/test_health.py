@@ -52,7 +52,7 @@ def test_slow(cycles, clock, count, level):
     report = cycles.report()
     assert report.level is level
     if level is not Level.OK:
-        assert report.text == f"Answers {count} states per second in place of 100."
+        assert report.text == f"Answers {count} states per second instead of 100."
 
 
 def test_late(cycles, clock):
@@ -63,7 +63,7 @@ def test_late(cycles, clock):
     answer(cycles, clock, 100, latency=0.02)
     report = cycles.report()
     assert report.level is Level.ERROR
-    assert report.values["answers later than a cycle, in all"] == "101"
+    assert report.values["answers later than a cycle, total"] == "101"
     answer(cycles, clock, 100)
     assert cycles.report().level is Level.OK
 
@@ -74,7 +74,7 @@ def test_silent(cycles, clock):
     clock.now += 3.2
     report = cycles.report()
     assert report.level is Level.STALE
-    assert report.text.startswith("No state to answer for 3.2 s")
+    assert report.text.startswith("No state for 3.2 s")
 
 
 def test_a_state_that_cannot_be_answered(cycles):

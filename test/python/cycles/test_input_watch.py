@@ -47,7 +47,7 @@ def test_inputs_that_stop_coming_are_named_until_they_come_again(watch, clock):
         (0.9 * TIMEOUT, ""),
         (-0.9 * TIMEOUT, ""),
         (1.0, "its stamp is 1.0 s old"),
-        (-1.0, "its stamp is 1.0 s in the future; keep the clocks together"),
+        (-1.0, "its stamp is 1.0 s in the future; synchronise the clocks"),
     ],
 )
 def test_the_age_by_the_stamp(age, expected):

@@ -178,7 +178,7 @@ def test_a_topic_of_that_name_with_another_type_is_no_controller(bag):
     with BagWriter(bag) as writer:
         text = writer.typestore.types["std_msgs/msg/String"]
         writer.write("/a/controller_state", "std_msgs/msg/String", text("hello"))
-    with pytest.raises(RunDataError, match="holds no deformable_manipulation"):
+    with pytest.raises(RunDataError, match="contains no deformable_manipulation"):
         read_run(bag)
 
 

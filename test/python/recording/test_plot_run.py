@@ -81,8 +81,8 @@ def test_figures_of_a_bag_carry_its_name(tmp_path, capsys):
 @pytest.mark.parametrize(
     "damage, message",
     [
-        (lambda text: "", "holds no cycle"),
-        (lambda text: text.splitlines()[0] + "\n", "holds no cycle"),
+        (lambda text: "", "contains no cycle"),
+        (lambda text: text.splitlines()[0] + "\n", "contains no cycle"),
         (lambda text: text[: text.rindex(",")], r"line 21: \d+ values for \d+ columns; .* cut off"),
         (lambda text: text.replace(".error_norm", ".e"), "lacks .* assistant_1.error_norm"),
         (lambda text: text.replace("time", "t", 1), "lacks the columns time"),

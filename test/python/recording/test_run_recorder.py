@@ -226,7 +226,7 @@ def test_a_run_without_a_cycle_leaves_readable_files(scenario, tmp_path):
 def test_an_existing_run_is_not_touched(scenario, tmp_path):
     record_run(scenario, tmp_path / "run", 5).finish(1.0, True)
     before = {path.name: path.read_bytes() for path in (tmp_path / "run").iterdir()}
-    with pytest.raises(RecordingError, match="holds a run already.*--force"):
+    with pytest.raises(RecordingError, match="already contains a run.*--force"):
         RunRecorder(scenario, tmp_path / "run")
     assert {path.name: path.read_bytes() for path in (tmp_path / "run").iterdir()} == before
 

@@ -123,7 +123,7 @@ def test_a_malformed_set_is_wrong_usage(loop, scenario_file, text, capsys):
 def test_an_earlier_run_is_overwritten_only_by_force(loop, scenario_file, output, capsys):
     assert main([scenario_file, "--output", str(output)]) == 0
     assert main([scenario_file, "--output", str(output), "--no-safety"]) == 1
-    assert "holds a run already" in capsys.readouterr().err
+    assert "already contains a run" in capsys.readouterr().err
     assert read_summary(output)["safety"]
     assert main([scenario_file, "--output", str(output), "--no-safety", "--force"]) == 0
     assert not read_summary(output)["safety"]

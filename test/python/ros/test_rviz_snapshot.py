@@ -21,7 +21,7 @@ def test_wrong_sizes_are_refused(text, capsys):
     with pytest.raises(SystemExit) as stop:
         main(["rope_one_assistant", f"--size={text}"])
     assert stop.value.code == 2
-    assert f"'{text}' is no size: two numbers of 64 to 8192" in capsys.readouterr().err
+    assert f"'{text}' is not a size: use two numbers from 64 to 8192" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("text", ["", "30;60", "-1", "nan", "inf", "10,soon", "10,"])
@@ -29,7 +29,7 @@ def test_wrong_times_are_refused(text, capsys):
     with pytest.raises(SystemExit) as stop:
         main(["rope_one_assistant", f"--times={text}"])
     assert stop.value.code == 2
-    assert f"'{text}' are no times" in capsys.readouterr().err
+    assert f"'{text}' is not a list of times" in capsys.readouterr().err
 
 
 def test_a_time_after_the_end_is_refused(capsys):
@@ -83,7 +83,7 @@ def test_a_run_folder_is_shown_as_recorded_and_a_scenario_is_run(run_folder, tmp
     [
         (["--times", "0.1,1"], "--times: 1 s is after the end of the run; allowed: 0 to 0.2 s"),
         (["--set", "controller.gain=2"], "--set cannot change"),
-        (["--speed", "2"], "--speed: is that of --video"),
+        (["--speed", "2"], "--speed: needs --video"),
         (["--output", "/dev/null/figures"], "cannot write the pictures"),
         (["--video", "/dev/null/a.mp4"], "cannot write the pictures"),
     ],
@@ -97,7 +97,7 @@ def test_a_scenario_that_has_not_been_run_cannot_be_filmed(capsys):
     assert main(["rope_one_assistant", "--video", "a.mp4"]) == 1
     assert "run_scenario rope_one_assistant --output DIR" in capsys.readouterr().err
     assert main(["rope_one_assistant", "--namespace", "left"]) == 1
-    assert "--namespace is for bags" in capsys.readouterr().err
+    assert "--namespace is only for bags" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option", ["--speed=0", "--speed=fast", "--video=a.avi", "--layout=heap"])

@@ -48,7 +48,7 @@ def test_an_unknown_view_is_told_with_those_there_are(path):
 def test_a_file_that_is_no_configuration(tmp_path, text):
     path = tmp_path / "x.rviz"
     path.write_text(text)
-    with pytest.raises(ProgramError, match="x.rviz is no RViz configuration"):
+    with pytest.raises(ProgramError, match="x.rviz is not an RViz configuration"):
         read_configuration(path, None, (640, 400))
 
 

@@ -24,7 +24,7 @@ def test_correct_file(path, capsys):
         "0.18 to 1.782 m",
         "block: polygon of 4 points",
         "250 cycles at 50 Hz",
-        "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; in all "
+        "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; mass "
         "0.6283 kg, bending stiffness 0.07854 N m^2",
     ):
         assert part in output.out
@@ -33,7 +33,7 @@ def test_correct_file(path, capsys):
 
 def test_a_name_that_is_not_the_file_s_is_told(path, capsys):
     assert main([str(path), "--set", "name=copied"]) == 0
-    assert "WARNING: name: its runs and pictures will be called 'copied'" in capsys.readouterr().err
+    assert "WARNING: name: runs and pictures will be called 'copied'" in capsys.readouterr().err
 
 
 def test_surfaces_without_an_inside_are_told(path, mapping, capsys):
@@ -49,7 +49,9 @@ def test_material_of_a_fabric(fabric_mapping, tmp_path, capsys):
     path = tmp_path / "small.yaml"
     path.write_text(yaml.safe_dump(fabric_mapping))
     assert main([str(path), "--set", "object.stretching_compliance=0"]) == 0
-    expected = "0.5 kg/m^2, thickness 0.002 m, stiffness to stretching rigid, to bending 0.0001 N m"
+    expected = (
+        "0.5 kg/m^2, thickness 0.002 m, stretching stiffness rigid, bending stiffness 0.0001 N m"
+    )
     assert expected in capsys.readouterr().out
 
 
@@ -130,7 +132,7 @@ def test_several_values_that_have_no_key_are_wrong_usage(path, capsys):
     with pytest.raises(SystemExit) as caught:
         main([str(path), "--sets", "gain 2"])
     assert caught.value.code == 2
-    assert "not of the form key.path=value" in capsys.readouterr().err
+    assert "does not have the form key.path=value" in capsys.readouterr().err
 
 
 def test_a_launch_s_own_arguments(path, capsys, tmp_path):
@@ -143,20 +145,23 @@ def test_a_launch_s_own_arguments(path, capsys, tmp_path):
 @pytest.mark.parametrize(
     "options, expected",
     [
-        (["--assistants", "helpr"], "'helpr' \u2014 is no assistant of the scenario; did you mean"),
+        (
+            ["--assistants", "helpr"],
+            "'helpr' \u2014 is not an assistant of the scenario; did you mean",
+        ),
         (["--assistants", "hand"], "assistants: helper"),
-        (["--assistants", "helper helper"], "names one twice"),
-        (["--assistants", "", "--all-assistants"], 'give assistants:="helper"'),
+        (["--assistants", "helper helper"], "contains a name twice"),
+        (["--assistants", "", "--all-assistants"], 'use assistants:="helper"'),
         (["--one-process", "maybe"], "one_process: 'maybe' \u2014 allowed: true or false"),
         (["--leader-input", "mouse"], "allowed: waypoints or hand"),
         (["--drag-obstacles", "true"], "no obstacle has motion.topic"),
         (
             ["--one-process", "false", "--set", "controller.cooperation=centralised"],
-            "leave out one_process:=false",
+            "do not use one_process:=false",
         ),
         (["--leader", "helper"], "leader:=hand"),
         (["--output", "/nowhere"], "'/nowhere' \u2014 does not exist"),
-        (["--output", "/dev/null"], "is no folder"),
+        (["--output", "/dev/null"], "is not a folder"),
     ],
 )
 def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
