@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Dict, List, Sequence
 
 from deformable_manipulation.benchmarks.table import Table
-from deformable_manipulation.figures.block import Provenance, write_block
+from deformable_manipulation.markdown.block import Provenance, write_block
 
 
 @dataclass

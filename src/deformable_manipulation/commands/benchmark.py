@@ -15,8 +15,8 @@ from deformable_manipulation.benchmarks.rivals.environment import (
 from deformable_manipulation.benchmarks.subject import SUBJECTS, Request
 from deformable_manipulation.commands.arguments import folder_name
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.figures.block import BlockError
 from deformable_manipulation.figures.present import present_origin
+from deformable_manipulation.markdown.block import BlockError
 from deformable_manipulation.system.interruption import exit_status, interruptible
 
 NAME = "benchmark"

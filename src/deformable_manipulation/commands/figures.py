@@ -8,7 +8,6 @@ from typing import List, Optional, Sequence
 from deformable_manipulation.benchmarks.rivals.environment import checkout
 from deformable_manipulation.commands.arguments import command_parser
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.figures.block import BlockError, Provenance, write_block
 from deformable_manipulation.figures.excerpt import quote
 from deformable_manipulation.figures.history import History, HistoryError
 from deformable_manipulation.figures.present import machine_name, present_origin
@@ -20,6 +19,7 @@ from deformable_manipulation.figures.registry import (
 )
 from deformable_manipulation.figures.runs import MeasurementError
 from deformable_manipulation.figures.state import examine, read_pages
+from deformable_manipulation.markdown.block import BlockError, Provenance, write_block
 from deformable_manipulation.system.interruption import exit_status, interruptible
 
 NAME = "figures"

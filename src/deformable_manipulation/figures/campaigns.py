@@ -2,8 +2,8 @@
 
 from typing import Dict, List, Sequence, Tuple
 
-from deformable_manipulation.figures.markdown import millimetres, table
 from deformable_manipulation.figures.runs import Say, run_campaign
+from deformable_manipulation.markdown.table import millimetres, table
 
 _PAPER = "controller.formulation=paper"
 _CENTRALISED = "controller.cooperation=centralised"

@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 from typing import Dict, List
 
-from deformable_manipulation.figures.block import BlockError
-from deformable_manipulation.figures.markdown import table
+from deformable_manipulation.markdown.block import BlockError
+from deformable_manipulation.markdown.table import table
 
 QUANTITIES = (
     "largest deviation / L, pinned, level, 28 segments",

@@ -4,8 +4,8 @@ import datetime
 from pathlib import Path
 from typing import Sequence
 
-from deformable_manipulation.figures.block import Provenance
 from deformable_manipulation.figures.history import History, HistoryError
+from deformable_manipulation.markdown.block import Provenance
 from deformable_manipulation.recording.provenance import machine
 
 

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Callable, Dict, Sequence
 
-from deformable_manipulation.commands.run_campaign import UNACCEPTABLE
+from deformable_manipulation.campaign.exit_status import UNACCEPTABLE
 
 Say = Callable[[str], None]
 

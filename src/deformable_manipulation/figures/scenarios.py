@@ -2,8 +2,8 @@
 
 from typing import Dict, Sequence, Tuple
 
-from deformable_manipulation.figures.markdown import millimetres, table
 from deformable_manipulation.figures.runs import Say, run_scenario
+from deformable_manipulation.markdown.table import millimetres, table
 from deformable_manipulation.reproduction.plan import FULL, PAPER, UNFILTERED, VARIANTS
 
 ROPES = (

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Sequence
 
-from deformable_manipulation.figures.block import Block, BlockError, read_blocks
 from deformable_manipulation.figures.history import History
 from deformable_manipulation.figures.registry import PAGES, SUBJECTS_BY_BLOCK, page_of
+from deformable_manipulation.markdown.block import Block, BlockError, read_blocks
 
 
 @dataclass(frozen=True)

@@ -154,9 +154,8 @@ class FabricSpec(ObjectSpec):
                 (self.bending_compliance, "N m"),
             )
         )
-        return "{:.4g} kg/m^2, thickness {:.4g} m, stretching stiffness {}, bending stiffness {}".format(
-            self.density, self.thickness, *stiffnesses
-        )
+        form = "{:.4g} kg/m^2, thickness {:.4g} m, stretching stiffness {}, bending stiffness {}"
+        return form.format(self.density, self.thickness, *stiffnesses)
 
     def to_mapping(self) -> Dict[str, Any]:
         """The section ``object`` as plain values, with the mesh inline."""

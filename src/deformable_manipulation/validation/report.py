@@ -2,7 +2,7 @@
 
 from typing import Dict, List, Sequence
 
-from deformable_manipulation.figures.block import Provenance, render_block
+from deformable_manipulation.markdown.block import Provenance, render_block
 from deformable_manipulation.validation.result import CaseResult, Check
 
 HEADER = "| {} | theory | measured | error | tolerance | pass |\n|---|---|---|---|---|---|"

@@ -8,7 +8,7 @@ import pytest
 
 from deformable_manipulation.benchmarks.report import Report
 from deformable_manipulation.benchmarks.table import EMPTY, Column, Table
-from deformable_manipulation.figures.block import BlockError, Provenance, read_blocks
+from deformable_manipulation.markdown.block import BlockError, Provenance, read_blocks
 
 COLUMNS = (Column("name", "library"), Column("time", "time [µs]", ".1f"), Column("n", "n", "d"))
 BEGIN, END = "<!-- figures: benchmark_rod -->", "<!-- end -->"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from deformable_manipulation.figures.block import (
+from deformable_manipulation.markdown.block import (
     BlockError,
     Provenance,
     read_blocks,

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from deformable_manipulation.figures.block import END, read_blocks
 from deformable_manipulation.figures.excerpt import quote
 from deformable_manipulation.figures.registry import PAGES, RESULTS, VALIDATION
 from deformable_manipulation.figures.state import examine, read_pages
+from deformable_manipulation.markdown.block import END, read_blocks
 
 CHECKOUT = Path(__file__).parents[3]
 

@@ -6,10 +6,10 @@ import pytest
 
 from deformable_manipulation.commands import figures as command
 from deformable_manipulation.figures import registry, state
-from deformable_manipulation.figures.block import Provenance, read_blocks, write_block
 from deformable_manipulation.figures.history import History, HistoryError
 from deformable_manipulation.figures.present import present_origin
 from deformable_manipulation.figures.registry import Subject
+from deformable_manipulation.markdown.block import Provenance, read_blocks, write_block
 
 PAGE = "page.md"
 

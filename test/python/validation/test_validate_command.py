@@ -5,7 +5,7 @@ import math
 import pytest
 
 from deformable_manipulation.commands import validate
-from deformable_manipulation.figures.block import Provenance
+from deformable_manipulation.markdown.block import Provenance
 from deformable_manipulation.validation import cases
 from deformable_manipulation.validation.figures import draw
 from deformable_manipulation.validation.report import report

@@ -1,0 +1,1 @@
+"""Markdown pages: tables, and blocks that commands write."""
