@@ -14,6 +14,7 @@ from typing import Any, Dict, Iterator, Optional, Tuple
 
 ANY = object()  # the paper's formulation leaves the value free
 NOTHING = object()
+CONTROLLER, SIMULATOR = "controller", "simulator"  # nodes that have live parameters
 
 
 @dataclass(frozen=True)
@@ -24,11 +25,13 @@ class Live:
         names: of the number, or of each component of a list.
         least: lower end of the slider.
         most: upper end of the slider.
+        node: which node has it: CONTROLLER or SIMULATOR.
     """
 
     names: Tuple[str, ...]
     least: float
     most: float
+    node: str = CONTROLLER
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dynamic_reconfigure.server import Server
 
 from deformable_manipulation.cfg import ControllerConfig
 from deformable_manipulation.scenario import ScenarioError, controller_to_mapping, with_controller
-from deformable_manipulation.scenario.controller import live_parameters
+from deformable_manipulation.scenario.live import live_parameters
 
 _AUTO = -1.0  # where the scenario says auto
 _ALL = -1  # level of the first call

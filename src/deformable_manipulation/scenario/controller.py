@@ -2,15 +2,14 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, List, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import (
     NOTHING,
+    SIMULATOR,
     Live,
-    Parameter,
-    declared_below,
     parameter,
 )
 from deformable_manipulation.reading.readers import (
@@ -148,6 +147,9 @@ class _ControllerKeys:
         "values give a more local gradient.",
         default=(0.1, 0.1, 0.1),
         allowed="smaller than the shortest free length between two agents",
+        live=Live(
+            ("perturbation_x", "perturbation_y", "perturbation_z"), -1.0, 1.0, node=SIMULATOR
+        ),
     )
     jacobian: str = parameter(
         Choice("perturbed_copies", "equilibrium"),
@@ -222,11 +224,6 @@ if TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any: ...
 else:
     ControllerSpec = _with_barriers(_ControllerKeys)
-
-
-def live_parameters() -> List[Tuple[Tuple[str, ...], Parameter]]:
-    """The parameters that can change while running, with their key paths in the section."""
-    return [each for each in declared_below(ControllerSpec) if each[1].live is not None]
 
 
 def for_object(controller: ControllerSpec, spec) -> ControllerSpec:

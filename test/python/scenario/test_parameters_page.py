@@ -6,7 +6,7 @@ import pytest
 
 from deformable_manipulation.reading.parameter import declared, declared_below
 from deformable_manipulation.scenario.barriers import BARRIERS
-from deformable_manipulation.scenario.controller import live_parameters
+from deformable_manipulation.scenario.live import live_parameters
 from deformable_manipulation.scenario.parameters_page import main, sections, updated
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.package_files import package_share_directory
