@@ -1,4 +1,4 @@
-"""Parameters that can change while the nodes run, for dynamic_reconfigure's files in ``config/``."""
+"""Parameters that can change while nodes run, for dynamic_reconfigure's files in ``config/``."""
 
 import re
 from typing import Any, Dict, List, Tuple
