@@ -62,7 +62,7 @@ def _examine(block: Block, history: History) -> List[Finding]:
     if not history.is_complete:
         return []
     if not history.has(provenance.commit):
-        return [Finding(block.name, f"commit {provenance.commit} is not in the history", True)]
+        return [Finding(block.name, f"commit {provenance.commit} is not in the history", False)]
     change = history.change_since(provenance.commit, SUBJECTS_BY_BLOCK[block.name].sources)
     if change:
         text = f"measured at {provenance.commit} ({provenance.date}), code changed in {change}"
