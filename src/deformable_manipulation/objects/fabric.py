@@ -67,6 +67,7 @@ class FabricSpec(ObjectSpec):
     jacobian = "perturbed_copies"
     has_joints = False
     is_surface = True
+    rviz_example = "fabric_three_assistants"
 
     @property
     def particles(self) -> int:

@@ -83,6 +83,7 @@ class RodSpec(ObjectSpec):
     jacobian = "equilibrium"
     has_joints = True
     is_surface = False
+    rviz_example = "rope_one_assistant"
 
     @property
     def particles(self) -> int:

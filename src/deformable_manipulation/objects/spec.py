@@ -17,12 +17,14 @@ class ObjectSpec(ABC):
         jacobian: where its gradients come from, unless the scenario says so.
         has_joints: whether it has joints, which ``simulation.solver`` is for.
         is_surface: whether it is made of triangles, and else a line of its points.
+        rviz_example: the scenario whose RViz configuration shows this kind.
     """
 
     type: ClassVar[str]
     jacobian: ClassVar[str]
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
+    rviz_example: ClassVar[str]
 
     @property
     @abstractmethod

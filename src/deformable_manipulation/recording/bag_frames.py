@@ -61,7 +61,6 @@ def _read_states(path: Path, reader: Reader, scenario: Scenario, namespace: str)
         np.array(cycles) * scenario.cycle_time,
         np.stack(points),
         np.stack(agents),
-        scenario.object.faces(),
         _read_obstacles(reader, scenario, namespace, cycles, every),
     )
 

@@ -22,8 +22,7 @@ class Frames:
     @property
     def faces(self) -> Optional[np.ndarray]:
         """Triangles (T, 3) of a surface; None of a line."""
-        spec = self.scenario.object
-        return np.array(spec.triangles) if spec.is_surface else None
+        return self.scenario.object.faces()
 
     def at(self, time: float) -> int:
         """Index of the frame nearest to a time [s]."""

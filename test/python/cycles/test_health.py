@@ -146,7 +146,7 @@ def test_limits_that_are_missed_are_told_with_their_slack():
         ([Status.WAITING, Status.NOMINAL], Level.WARN, "in 1 of 2 cycles"),
         ([Status.DISABLED], Level.OK, "Switched off"),
         ([Status.UNSAFE_FILTER_OFF], Level.WARN, "UNSAFE"),
-        ([], Level.STALE, "no state has come"),
+        ([], Level.STALE, "no state has arrived"),
     ],
 )
 def test_the_worst_is_told(statuses, level, text):

@@ -120,7 +120,7 @@ def test_files_that_are_none(tmp_path):
     os.mkfifo(tmp_path / "pipe.obj")
     (tmp_path / "zero.obj").symlink_to("/dev/zero")
     for name in ("pipe.obj", "zero.obj", "missing.obj", "."):
-        with pytest.raises(MeshError, match="cannot be read|is no regular file"):
+        with pytest.raises(MeshError, match="cannot be read|is not a regular file"):
             read_mesh(tmp_path / name)
 
 

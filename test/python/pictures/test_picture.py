@@ -79,7 +79,7 @@ def test_a_picture_is_taken_once_it_is_at_rest():
     [
         ([blank()], "nothing was rendered"),
         ([grid()], "nothing was rendered"),
-        ([np.roll(scene(), i, axis=1) for i in range(100)], "did not come to rest"),
+        ([np.roll(scene(), i, axis=1) for i in range(100)], "did not stop changing"),
     ],
 )
 def test_what_is_amiss_is_told(pictures, complaint):

@@ -86,7 +86,7 @@ def test_runs_side_by_side_need_a_choice(bag):
         read_run(bag)
     assert read_run(bag, "left").distance[0] == pytest.approx(0.06)
     assert read_run(bag, "/right/").distance[0] == 0.5
-    with pytest.raises(RunDataError, match="no namespace middle, but: /left, /right"):
+    with pytest.raises(RunDataError, match="no namespace middle; it contains: /left, /right"):
         read_run(bag, "middle")
 
 

@@ -133,10 +133,10 @@ def test_a_pipe_in_the_place_of_a_file_is_refused(run_folder, tmp_path, capsys):
     (run_folder / "states.npz").unlink()
     os.mkfifo(str(run_folder / "states.npz"))
     assert main([str(run_folder), "--format", "png"]) == 0
-    assert "no overview" in (told := capsys.readouterr().err) and "no regular file" in told
+    assert "no overview" in (told := capsys.readouterr().err) and "not a regular file" in told
     os.mkfifo(str(tmp_path / "run.bag"))
     assert main([str(tmp_path / "run.bag")]) == 1
-    assert "run.bag is no regular file" in capsys.readouterr().err
+    assert "run.bag is not a regular file" in capsys.readouterr().err
     (run_folder / "summary.json").unlink()
     os.mkfifo(str(run_folder / "summary.json"))
     assert read_run(run_folder).scenario == "synthetic"

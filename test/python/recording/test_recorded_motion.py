@@ -51,5 +51,5 @@ def test_a_path_of_the_scenario_stays():
 
 def test_what_was_not_recorded_is_refused():
     frames = dataclasses.replace(recorded("{topic: block}"), obstacles=None)
-    with pytest.raises(RunDataError, match="does not tell where the obstacles block were"):
+    with pytest.raises(RunDataError, match="lacks the poses of the obstacles block"):
         with_recorded_motion(frames)

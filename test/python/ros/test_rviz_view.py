@@ -53,7 +53,7 @@ def test_a_file_that_is_no_configuration(tmp_path, text):
 
 
 @pytest.mark.parametrize(
-    "path, reason", [("absent.rviz", "No such file"), ("/dev/zero", "no regular file")]
+    "path, reason", [("absent.rviz", "No such file"), ("/dev/zero", "not a regular file")]
 )
 def test_a_file_that_cannot_be_read(tmp_path, path, reason):
     with pytest.raises(ProgramError, match=reason):

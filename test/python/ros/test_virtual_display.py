@@ -39,7 +39,7 @@ def test_more_than_the_picture_does_not_matter(pixels):
 
 @pytest.mark.parametrize("length", [0, 50, 120, -1])
 def test_a_window_dump_that_is_cut_off(pixels, length):
-    with pytest.raises(ProgramError, match="cut off"):
+    with pytest.raises(ProgramError, match="truncated"):
         read_window_dump(window_dump(pixels)[:length])
 
 

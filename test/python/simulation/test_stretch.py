@@ -99,7 +99,7 @@ def test_plots_of_a_torn_rope_say_so(torn, monkeypatch):
     folder, _ = torn
     titles = []
     monkeypatch.setattr(
-        "deformable_manipulation.plots.controller_plot.save_figure",
+        "deformable_manipulation.plots.style.save_figure",
         lambda figure, path: titles.append(
             figure.legends[0].get_title().get_text() if figure.legends else figure.get_suptitle()
         ),

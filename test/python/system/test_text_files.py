@@ -35,13 +35,13 @@ def pipe(tmp_path):
 
 
 def test_pipes_are_not_waited_for(pipe):
-    with pytest.raises(TextFileError, match="no regular file"):
+    with pytest.raises(TextFileError, match="not a regular file"):
         read_text(pipe)
 
 
 @pytest.mark.parametrize("device", ["/dev/zero", "/dev/null"])
 def test_devices(device):
-    with pytest.raises(TextFileError, match="no regular file"):
+    with pytest.raises(TextFileError, match="not a regular file"):
         read_text(device)
 
 
