@@ -3,10 +3,10 @@
 import numpy as np
 from output_folder import output_folder
 
-from deformable_manipulation.plots.style import save_figure
 from deformable_manipulation.plots.overview_plot import plot_overview
+from deformable_manipulation.plots.style import save_figure
 from deformable_manipulation.recording import RunRecorder, read_run
-from deformable_manipulation.recording.frames import read_frames
+from deformable_manipulation.recording.frame_reader import read_frames
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
 

@@ -61,7 +61,7 @@ TEST(SimulationParameters, areRefusedAllAtOnce) {
   Agent beyond{"assistant", 28, Hold::CLAMPED, Pose()};
   beyond.start.position.x() = std::numeric_limits<double>::quiet_NaN();
   try {
-    Simulation simulation(std::make_unique<Rod>(rope()), {leader, same, beyond}, {}, Clock());
+    Simulation simulation(std::make_unique<Rod>(rope()), {leader, same, beyond}, {}, Clock{0.01, 2, 1});
     FAIL() << "no exception";
   } catch (const ParameterError& error) {
     EXPECT_EQ(keysOf(error), (std::vector<std::string>{"agents.leader", "agents.leader.particle",
@@ -74,7 +74,7 @@ TEST(Simulation, actsOnACommandFromTheNextAdvanceOn) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
-  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock());
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock{0.01, 2, 1});
   EXPECT_TRUE(simulation.settled());
   EXPECT_EQ(simulation.cycle(), 0);
   const double start_z = positions(simulation.body())[13].z();
@@ -99,7 +99,7 @@ TEST(Simulation, letsAgentsReleaseAndGrip) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
-  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock());
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock{0.01, 2, 1});
   EXPECT_THROW(simulation.hold(1, 20, Hold::PINNED), std::logic_error);  // it holds one
   simulation.release(1);
   EXPECT_EQ(simulation.particleOf(1), -1);
@@ -137,7 +137,7 @@ TEST(Simulation, keepsChangedPerturbationsOverAReset) {
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
   const Vector3 before(0.0, 0.0, 0.1), after(0.0, 0.03, 0.0);
-  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, before}}, Clock());
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, before}}, Clock{0.01, 2, 1});
   EXPECT_THROW(simulation.setPerturbations({{1, after}, {1, Vector3::Zero()}}), std::invalid_argument);
   ASSERT_EQ(simulation.body().copies().size(), 1u);
   EXPECT_EQ(simulation.body().copies()[0].requested, before);
@@ -157,7 +157,7 @@ TEST(Simulation, keepsChangedPerturbationsOverAReset) {
 TEST(Simulation, keepsAChangedMaterialOverAReset) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
-  Simulation simulation(std::make_unique<Rod>(p), {leader}, {}, Clock());
+  Simulation simulation(std::make_unique<Rod>(p), {leader}, {}, Clock{0.01, 2, 1});
   const double soft = positions(simulation.body())[27].z();
   simulation.setMaterial({{"young_modulus", 3e10}, {"torsion_modulus", 1e10}});
   simulation.reset();

@@ -72,7 +72,7 @@ class DiagnosticsTest(FaultTest):
             self.wait_for_report("controller: inputs", DiagnosticStatus.STALE, "No distances for")
             self.wait_for_report(PROGRAM, DiagnosticStatus.ERROR, "no distances for")
             self.wait_for_report(
-                "controller: cycle", DiagnosticStatus.STALE, "No state to answer for"
+                "controller: cycle", DiagnosticStatus.STALE, "No state for"
             )
         finally:
             os.kill(process, signal.SIGCONT)

@@ -8,7 +8,7 @@ from typing import Callable, List
 
 import numpy as np
 
-from deformable_manipulation import _distance  # type: ignore[attr-defined]
+from deformable_manipulation import _distance
 from deformable_manipulation.benchmarks.distance_cases import ball, fabric, hill, rope
 from deformable_manipulation.benchmarks.distance_rivals import (
     FclMesh,
@@ -88,7 +88,7 @@ def _meshes(request: Request) -> List[Table]:
         for case, height in HEIGHTS.items():
             body = fabric(COPIES, height=height)
             candidates = _own(obstacle, body.faces())
-            candidates.append((FclMesh.name, FclMesh(*mesh, body.faces())))
+            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.faces())))
             if faces <= MOST_FOR_TRIMESH:
                 candidates.append((TrimeshVertices.name, TrimeshVertices(*mesh)))
             for name, call in candidates:

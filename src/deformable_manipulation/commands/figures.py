@@ -125,6 +125,7 @@ def _measure(top: Path, names: Sequence[str]) -> None:
 
 
 def _quote(top: Path, subject: Subject) -> None:
+    assert subject.excerpt_of is not None
     origin = read_pages(top)[subject.excerpt_of].provenance
     if origin is None:
         raise BlockError(f"{VALIDATION}: was never measured")

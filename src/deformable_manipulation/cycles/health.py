@@ -88,7 +88,8 @@ class CycleMonitor:
         if latencies:
             values.update(_spread("latency", latencies))
             values["answers later than a cycle, total"] = str(self._late)
-        return Report(*self._judge(rate, latencies), values)
+        level, text = self._judge(rate, latencies)
+        return Report(level, text, values)
 
     def _judge(self, rate, latencies):
         if self._rate is None:
@@ -119,7 +120,8 @@ class DecisionMonitor:
         decisions, self._decisions = self._decisions, []
         if not decisions:
             return Report(Level.STALE, "Nothing to decide: no state has arrived.")
-        return Report(*_judge_decisions(decisions), _decision_values(decisions))
+        level, text = _judge_decisions(decisions)
+        return Report(level, text, _decision_values(decisions))
 
 
 def _judge_decisions(decisions):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from deformable_manipulation import _distance  # type: ignore[attr-defined]
+from deformable_manipulation import _distance
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PLANE_AXES
 from deformable_manipulation.geometry.polygons import check_ring

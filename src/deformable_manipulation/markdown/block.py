@@ -75,6 +75,7 @@ def write_block(page: Path, name: str, content: str, provenance: Provenance) -> 
     if name not in _find(text, page):
         raise BlockError(f"{page}: needs the lines <!-- figures: {name} --> and {END}")
     begin = re.search(rf"^<!-- figures: {name}\b.*$", text, re.MULTILINE)
+    assert begin is not None  # it was found
     end = text.index(END, begin.end())
     after = text[end + len(END) :]
     block = render_block(name, content, provenance)

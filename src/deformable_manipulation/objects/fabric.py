@@ -258,7 +258,8 @@ def _check_body(node: Node, fabric: FabricSpec) -> None:
     try:
         _body(fabric)
     except ValueError as error:
-        for key, value, allowed in error.problems:  # a _pbd.ParameterError
+        problems = getattr(error, "problems", ())  # of a _pbd.ParameterError
+        for key, value, allowed in problems:
             node.report.add(node.path + _key_path(node, key), "must be {}".format(allowed), value)
         raise Unreadable from None
 

@@ -46,9 +46,11 @@ def video_file(path, size):
             start_new_session=True,
         )
         stack.callback(_end, ffmpeg)
+        pipe = ffmpeg.stdin
+        assert pipe is not None
         try:
-            yield lambda picture: ffmpeg.stdin.write(picture.tobytes())
-            ffmpeg.stdin.close()
+            yield lambda picture: pipe.write(picture.tobytes())
+            pipe.close()
             status = ffmpeg.wait(_END_TIMEOUT)
         except (BrokenPipeError, subprocess.TimeoutExpired):
             status = None

@@ -81,17 +81,16 @@ class SnapshotPlot:
 
     def _draw_frame(self, frame: int, colour: str) -> None:
         points = self._frames.points[frame][:, self._plane]
-        if not self._frames.scenario.object.is_surface:
+        faces = self._frames.faces
+        if faces is None:
             self._axes.plot(*points.T, color=colour, linewidth=1.4, zorder=4)
         else:
             self._axes.add_collection(
-                PolyCollection(
-                    points[self._frames.faces], facecolors=colour, edgecolors="none", alpha=0.12
-                )
+                PolyCollection(points[faces], facecolors=colour, edgecolors="none", alpha=0.12)
             )
             self._axes.add_collection(
                 LineCollection(
-                    points[boundary_edges(self._frames.faces)],
+                    points[boundary_edges(faces)],
                     colors=colour,
                     linewidths=1.2,
                     zorder=4,

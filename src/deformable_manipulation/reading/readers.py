@@ -322,7 +322,7 @@ class Section:
         self,
         spec,
         defaults: Optional[Mapping[str, Any]] = None,
-        also: Optional[type] = None,
+        also: Any = None,
         others: Optional[Mapping[str, Parameter]] = None,
     ):
         more = {} if also is None else declared(also)

@@ -2,7 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
@@ -228,7 +228,7 @@ else:
 
 def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     """The section with what depends on the object and on its barriers filled in."""
-    filled = {}
+    filled: Dict[str, Any] = {}
     if controller.jacobian is None:
         filled["jacobian"] = spec.jacobian
     if controller.priority is None:

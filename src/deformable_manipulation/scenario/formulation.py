@@ -58,7 +58,7 @@ def check_formulation(report: Report, controller: ControllerSpec) -> None:
     if controller.formulation != PAPER:
         return
     for path, wanted in PAPERS.items():
-        given = controller
+        given: Any = controller
         for key in path:
             given = getattr(given, key, None)
             if given is None:

@@ -140,7 +140,7 @@ def test_a_controller_that_is_silent_in_the_last_run_is_left_out(bag, resets):
             writer.cycle(cycle, reset_count=resets[1])
     run = read_run(bag)
     assert [series.agent for series in run.assistants] == ["assistant_1"]
-    assert any("assistant_2 is silent" in note for note in run.notes)
+    assert any("assistant_2 sent nothing" in note for note in run.notes)
 
 
 def test_no_controller_in_the_last_run(bag):

@@ -45,7 +45,7 @@ def test_a_program_that_ends_by_itself_is_told_with_its_last_words(tmp_path):
             program.wait_until(lambda: False, DEADLINE, "")
     assert str(error.value).splitlines() == [
         "trial ended with exit status 3.",
-        "The last that trial printed:",
+        "Last output of trial:",
         "  no such thing",
     ]
 
