@@ -40,8 +40,11 @@ myst_fence_as_directive = ["math", "mermaid"]
 myst_heading_anchors = 4
 
 napoleon_numpy_docstring = False
+napoleon_use_ivar = True  # attributes that a docstring lists are no members of their own
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "undoc-members": True, "show-inheritance": True}
+# Names that a package offers beside the module that has them are two targets of one thing.
+suppress_warnings = ["ref.python"]
 
 breathe_projects = {project: os.environ["DOCS_DOXYGEN_XML"]}
 breathe_default_project = project
