@@ -94,7 +94,9 @@ class Stage:
             if room == source:
                 modules.remove(room / "__init__.py")
             if modules and room.name not in NOT_IN_API:
-                sections = [_automodule(self._module(path)) for path in modules]
+                sections = [
+                    _automodule(self._module(path), path.name == "__init__.py") for path in modules
+                ]
                 self._write_api_page(f"api/{room.name}.md", room.name, sections)
                 listed.append(room.name)
         compiled = [_automodule(f"{PACKAGE}.{module}") for module in COMPILED]
@@ -136,9 +138,11 @@ def _contents(title: str, introduction: str, pages) -> str:
     return f"# {title}\n\n{introduction}\n\n```{{toctree}}\n:maxdepth: 2\n\n{entries}\n```\n"
 
 
-def _automodule(module: str) -> str:
+def _automodule(module: str, repeats: bool = False) -> str:
+    """A section of a module; one that repeats the names of others is no target of references."""
     title = module.split(".", 1)[-1]
-    return f"## {title}\n\n```{{eval-rst}}\n.. automodule:: {module}\n```\n"
+    options = "   :no-index:\n" if repeats else ""
+    return f"## {title}\n\n```{{eval-rst}}\n.. automodule:: {module}\n{options}```\n"
 
 
 if __name__ == "__main__":

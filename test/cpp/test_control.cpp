@@ -18,12 +18,16 @@ std::atomic<long> allocations{0};
 
 }  // namespace
 
+#ifdef __SANITIZE_ADDRESS__  // which has a malloc of its own
+extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t) { ++allocations; }
+#else
 extern "C" void* __libc_malloc(std::size_t size);  // glibc's own
 
 extern "C" void* malloc(std::size_t size) {
   ++allocations;
   return __libc_malloc(size);
 }
+#endif
 
 namespace deformable_manipulation {
 namespace control {

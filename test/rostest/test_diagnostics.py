@@ -71,9 +71,7 @@ class DiagnosticsTest(FaultTest):
         try:
             self.wait_for_report("controller: inputs", DiagnosticStatus.STALE, "No distances for")
             self.wait_for_report(PROGRAM, DiagnosticStatus.ERROR, "no distances for")
-            self.wait_for_report(
-                "controller: cycle", DiagnosticStatus.STALE, "No state for"
-            )
+            self.wait_for_report("controller: cycle", DiagnosticStatus.STALE, "No state for")
         finally:
             os.kill(process, signal.SIGCONT)
         self.wait_for_report("controller: inputs", DiagnosticStatus.OK)

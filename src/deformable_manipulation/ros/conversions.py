@@ -120,7 +120,7 @@ def to_distances(message) -> Distances:
         raise MessageError(message.fault)
     features = len(message.feature_distances)
     vectors = (features, 3)
-    return Distances(
+    arrays = dict(
         minimum=message.minimum_distances,
         offsets=np.asarray(message.feature_offsets, dtype=np.int64),
         distance=message.feature_distances,
@@ -132,8 +132,11 @@ def to_distances(message) -> Distances:
         weights=_reshaped(message.feature_weights, "feature_weights", vectors),
         obstacle_velocity=_obstacle_velocities(message.obstacle_velocities, vectors),
         identity=_reshaped(message.feature_identities, "feature_identities", (features,)),
-        names=tuple(message.obstacles),
     )
+    try:
+        return Distances(**arrays, names=list(message.obstacles))
+    except ValueError as error:
+        raise MessageError(str(error)) from error
 
 
 def _obstacle_velocities(values, shape):

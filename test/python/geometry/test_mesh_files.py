@@ -107,11 +107,11 @@ def test_zeros_of_obj_files_that_are_no_vertices(write, line):
 
 
 def test_what_a_library_says_of_a_broken_file_is_not_passed_on(write):
-    path = write(bytes(range(256)) * 4, "noise.stl")
+    path = write(bytes(range(256)) * 4, "noise.ply")
     with pytest.raises(MeshError) as caught:
         read_mesh(path)
     assert str(caught.value) == (
-        f"{path} is no mesh that can be read: it is broken, or no STL file; formats allowed: "
+        f"{path} is no mesh that can be read: it is broken, or no PLY file; formats allowed: "
         "OBJ, PLY, STL, OFF, glTF and GLB"
     )
 

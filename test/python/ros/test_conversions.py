@@ -178,11 +178,22 @@ def test_any_message_in_another_frame_is_refused_by_its_name(distances, scenario
 
 @pytest.mark.parametrize(
     "field",
-    ["object_points", "obstacle_points", "normals", "feature_vertices", "feature_weights"],
+    [
+        "object_points",
+        "obstacle_points",
+        "normals",
+        "feature_vertices",
+        "feature_weights",
+        "feature_offsets",
+        "minimum_distances",
+        "feature_obstacles",
+    ],
 )
 def test_distances_that_do_not_fit_are_refused_by_name(distances, field):
     setattr(distances, field, getattr(distances, field)[:-1])
-    with pytest.raises(MessageError, match="^" + field):
+    named = {"feature_offsets": "offsets", "minimum_distances": "offsets"}
+    named["feature_obstacles"] = "obstacle"
+    with pytest.raises(MessageError, match="^" + named.get(field, field)):
         conversions.to_distances(transmitted(distances))
 
 
