@@ -74,15 +74,15 @@ def describe(summary: dict) -> str:
             summary["duration"],
             summary["wall_time"],
         ),
-        "lowest distance          {} (offset {})".format(
+        "lowest distance            {} (offset {})".format(
             _millimetres(summary["min_distance"]), _millimetres(summary["offset"])
         ),
-        "worst violation          {}".format(_millimetres(summary["worst_violation"])),
+        "worst violation            {}".format(_millimetres(summary["worst_violation"])),
     ]
     for name, margin in summary["min_margin"].items():
         if name != "collision":  # told as distance
             label = "lowest {}".format(BARRIERS[name].margin)
-            lines.append("{:25}{}".format(label, _millimetres(margin)))
+            lines.append("{:27}{}".format(label, _millimetres(margin)))
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))

@@ -70,7 +70,7 @@ def test_a_whole_run(loop, scenario_file, output, capsys):
     assert summary["wall_time"] > 0
     captured = capsys.readouterr()
     assert f"written to {output}" in captured.out
-    assert "lowest distance          60.0 mm (offset 50.0 mm)" in captured.out
+    assert "lowest distance            60.0 mm (offset 50.0 mm)" in captured.out
     assert captured.err.split("\n")[-2] == "100 %"
 
 
