@@ -162,7 +162,7 @@ class LeaderByHandTest(unittest.TestCase):
                 np.testing.assert_array_equal(self.wait_for_rest(), self.start)
                 self.wait_for_marker(self.start)
         self.steer((0.0, math.nan, 0.0))
-        self.log.wait_for(lambda line: "teleoperation is not followed" in line.msg, "a refusal")
+        self.log.wait_for(lambda line: "teleoperation command is ignored" in line.msg, "a refusal")
         np.testing.assert_array_equal(self.wait_for_rest(), self.start)
 
     def test_it_is_steered_until_no_more_commands_come(self):
