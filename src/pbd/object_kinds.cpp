@@ -13,11 +13,22 @@ namespace {
 //! A maker of a kind with parameters of its own, all of whose mistakes are told at once.
 template <typename Object, typename Parameters>
 BodyMaker maker() {
-  return [](const ParameterSection& object, const ParameterSection& simulation) {
-    const Parameters parameters = Parameters::read(object, simulation);
-    object.check().throwIfAny();
-    return std::make_unique<Object>(parameters);
-  };
+  return {
+      [](const ParameterSection& object, const ParameterSection& simulation) { Parameters::read(object, simulation); },
+      [](const ParameterSection& object, const ParameterSection& simulation) {
+        const Parameters parameters = Parameters::read(object, simulation);
+        object.check().throwIfAny();
+        return std::make_unique<Object>(parameters);
+      }};
+}
+
+//! The maker of the kind that a section says; of another one, and a problem noted, where it says none.
+const BodyMaker& makerOf(const ParameterSection& object) {
+  std::vector<std::pair<std::string, const BodyMaker*>> choices;
+  for (const auto& [kind, maker] : bodyMakers()) {
+    choices.emplace_back(kind, &maker);
+  }
+  return *object.choice<const BodyMaker*>("type", choices);
 }
 
 }  // namespace
@@ -31,13 +42,13 @@ const std::map<std::string, BodyMaker>& bodyMakers() {
 }
 
 std::unique_ptr<Body> makeBody(const ParameterSection& object, const ParameterSection& simulation) {
-  std::vector<std::pair<std::string, const BodyMaker*>> choices;
-  for (const auto& [kind, maker] : bodyMakers()) {
-    choices.emplace_back(kind, &maker);
-  }
-  const BodyMaker* maker = object.choice<const BodyMaker*>("type", choices);
+  const BodyMaker& maker = makerOf(object);
   object.check().throwIfAny();
-  return (*maker)(object, simulation);
+  return maker.make(object, simulation);
+}
+
+void noteMistakes(const ParameterSection& object, const ParameterSection& simulation) {
+  makerOf(object).note_mistakes(object, simulation);
 }
 
 }  // namespace pbd

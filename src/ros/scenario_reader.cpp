@@ -60,6 +60,7 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   const ParameterSection controller = root.section("controller");
   scenario.name = root.text("name");
   scenario.frame = root.text("frame");
+  pbd::noteMistakes(root.section("object"), simulation);
   scenario.object = plain["object"];
   scenario.simulation = plain["simulation"];
   readAgents(root, scenario);
