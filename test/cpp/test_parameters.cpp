@@ -74,7 +74,8 @@ TEST(Simulation, actsOnACommandFromTheNextAdvanceOn) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
-  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock{0.01, 2, 1});
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}},
+                        Clock{0.01, 2, 1});
   EXPECT_TRUE(simulation.settled());
   EXPECT_EQ(simulation.cycle(), 0);
   const double start_z = positions(simulation.body())[13].z();
@@ -99,7 +100,8 @@ TEST(Simulation, letsAgentsReleaseAndGrip) {
   const RodParameters p = rope();
   Agent leader{"leader", 0, Hold::CLAMPED, gripAt(p, Vector3::Zero())};
   Agent assistant{"assistant", 27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0))};
-  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}}, Clock{0.01, 2, 1});
+  Simulation simulation(std::make_unique<Rod>(p), {leader, assistant}, {{1, Vector3(0.0, 0.0, 0.1)}},
+                        Clock{0.01, 2, 1});
   EXPECT_THROW(simulation.hold(1, 20, Hold::PINNED), std::logic_error);  // it holds one
   simulation.release(1);
   EXPECT_EQ(simulation.particleOf(1), -1);
