@@ -1,7 +1,6 @@
 #include "deformable_manipulation/distance/mesh_obstacle.h"
 
 #include "mesh_cleaning.h"
-#include "mesh_local_minima.h"
 #include "mesh_search.h"
 #include "pose_checks.h"
 
@@ -66,14 +65,11 @@ class MeshObstacle::Search {
     }
   }
 
-  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
     prepare(object);
     bring(object, 0);
     for (Part& part : parts_) {
       part.search->elements(object_, limit, guess(part, 0), &part.known[0].bounds, &places_);
-      if (selection == Selection::LOCAL) {
-        keepLocalMinima(object_, &places_);
-      }
       for (const MeshPlace& place : places_) {
         if (place.known()) {
           found->push_back(featureAt(object, 0, *part.search, place));
@@ -189,8 +185,8 @@ void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& ro
 
 void MeshObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
 
-void MeshObstacle::features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
-  search_->features(object, selection, limit, found);
+void MeshObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+  search_->features(object, limit, found);
 }
 
 }  // namespace distance

@@ -48,6 +48,14 @@ void requireGeometry(const ObjectView& object) {
   }
 }
 
+std::int64_t identityOf(const Feature& feature, const ObjectView& object) {
+  std::int64_t identity = feature.obstacle;
+  for (int k = 0; k < (object.triangles == nullptr ? 1 : 3); ++k) {
+    identity = identity * object.point_count + feature.vertices[k];
+  }
+  return identity;
+}
+
 bool nearer(const Feature& a, const Feature& b) { return a.distance < b.distance; }
 
 //! The nearest first; of equally near ones the order is always the same.
@@ -57,9 +65,8 @@ bool before(const Feature& a, const Feature& b) {
 
 }  // namespace
 
-MinimumDistance::MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band,
-                                 Selection selection)
-    : obstacles_(std::move(obstacles)), margin_(margin), band_(band), selection_(selection) {
+MinimumDistance::MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band)
+    : obstacles_(std::move(obstacles)), margin_(margin), band_(band) {
   requireLength("margin", margin);
   requireLength("band", band);
 }
@@ -95,8 +102,8 @@ const Distances& MinimumDistance::compute(const ObjectView& object) {
   }
   for (Feature& feature : result_.features) {
     feature.distance -= margin_;
+    feature.identity = identityOf(feature, object);
   }
-  tracker_.follow(object, selection_, &result_);
   return result_;
 }
 
@@ -105,7 +112,7 @@ void MinimumDistance::addFeatures(const ObjectView& object) {
   const double limit = nearest_[0].distance + band_ + kRounding;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const std::size_t first = features.size();
-    obstacles_[i]->features(object, selection_, limit, &features);
+    obstacles_[i]->features(object, limit, &features);
     for (std::size_t k = first; k < features.size(); ++k) {
       features[k].obstacle = static_cast<int>(i);
     }

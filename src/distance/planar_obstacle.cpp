@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "planar_frame.h"
-#include "planar_local_minima.h"
 #include "planar_polyline.h"
 #include "planar_surface.h"
 #include "pose_checks.h"
@@ -32,7 +31,7 @@ std::array<int, 2> axesOf(const std::string& plane, std::vector<std::string>* pr
 class PlanarObstacle::Search {
  public:
   Search(PlanarRing ring, const PlanarFrame& frame)
-      : region_(std::move(ring)), frame_(frame), polyline_(region_), local_minima_(region_, polyline_) {}
+      : region_(std::move(ring)), frame_(frame), polyline_(region_) {}
 
   const PlanarRegion& region() const { return region_; }
 
@@ -54,15 +53,11 @@ class PlanarObstacle::Search {
     }
   }
 
-  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) {
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
     const PlanarCopy copy = projected(object, 0);
     places_.clear();
-    if (object.triangles == nullptr && selection == Selection::LOCAL) {
-      local_minima_.find(copy, limit, &places_);
-    } else if (object.triangles == nullptr) {
+    if (object.triangles == nullptr) {
       polyline_.elements(copy, limit, &places_);
-    } else if (selection == Selection::LOCAL) {
-      surface().localMinima(copy, object.triangles, object.triangle_count, limit, &places_);
     } else {
       surface().elements(copy, object.triangles, object.triangle_count, limit, &places_);
     }
@@ -121,7 +116,6 @@ class PlanarObstacle::Search {
   Vector3 translation_ = Vector3::Zero();  // m
   pbd::Twist velocity_;
   PlanarPolyline polyline_;
-  PlanarLocalMinima local_minima_;
   std::unique_ptr<PlanarSurface> surface_;  // made when the first surface comes
   std::vector<Point2> flat_;
   std::vector<MaterialPoint> places_;
@@ -154,9 +148,8 @@ void PlanarObstacle::setPose(const Vector3& translation, const pbd::Quaternion& 
 
 void PlanarObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
 
-void PlanarObstacle::features(const ObjectView& object, Selection selection, double limit,
-                              std::vector<Feature>* found) {
-  search_->features(object, selection, limit, found);
+void PlanarObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+  search_->features(object, limit, found);
 }
 
 }  // namespace distance

@@ -4,8 +4,6 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kDescent = 1e-13;  // m, over kProbe: slopes below 1e-8 count as level
-
 std::array<Point2, 3> cornersOf(const PlanarCopy& copy, const std::array<int, 3>& triangle) {
   return {copy.points[triangle[0]], copy.points[triangle[1]], copy.points[triangle[2]]};
 }
@@ -62,23 +60,6 @@ void PlanarSurface::elements(const PlanarCopy& copy, const std::array<int, 3>* t
       if (place.distance <= limit) {
         found->push_back(place);
       }
-    }
-  }
-}
-
-void PlanarSurface::localMinima(const PlanarCopy& copy, const std::array<int, 3>* triangles, int count, double limit,
-                                std::vector<MaterialPoint>* found) {
-  candidates_.clear();
-  elements(copy, triangles, count, limit, &candidates_);
-  const auto nearer = [](const MaterialPoint& a, const MaterialPoint& b) { return a.distance < b.distance; };
-  std::stable_sort(candidates_.begin(), candidates_.end(), nearer);
-  const std::size_t first = found->size();
-  for (const MaterialPoint& place : candidates_) {
-    const Point2 point = copy.at(place);
-    const bool known = std::any_of(found->begin() + first, found->end(),
-                                   [&](const MaterialPoint& other) { return norm(copy.at(other) - point) <= kProbe; });
-    if (!known && !fallsAround(copy, triangles, count, place)) {
-      found->push_back(place);
     }
   }
 }
@@ -162,29 +143,6 @@ void PlanarSurface::enterCircles(const Corners& corners, double bound, MaterialP
       return;
     }
   }
-}
-
-bool PlanarSurface::fallsAround(const PlanarCopy& copy, const std::array<int, 3>* triangles, int count,
-                                const MaterialPoint& place) {
-  const Point2 point = copy.at(place);
-  for (int t = 0; t < count; ++t) {
-    const auto holds = [&](int k) {
-      return place.weights[k] <= kLevel ||
-             std::find(triangles[t].begin(), triangles[t].end(), place.vertices[k]) != triangles[t].end();
-    };
-    if (!holds(0) || !holds(1) || !holds(2)) {
-      continue;
-    }
-    Corners around = cornersOf(copy, triangles[t]);
-    for (Point2& corner : around) {
-      const Point2 way = corner - point;
-      corner = point + std::min(1.0, kProbe / std::max(norm(way), kProbe)) * way;
-    }
-    if (nearest(around, triangles[t], place.distance, true).distance < place.distance - kDescent) {
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace distance

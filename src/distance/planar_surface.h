@@ -24,12 +24,6 @@ class PlanarSurface {
   void elements(const PlanarCopy& copy, const std::array<int, 3>* triangles, int count, double limit,
                 std::vector<MaterialPoint>* found);
 
-  //! Appends those of them that are local minima on the surface: of each triangle its nearest point if the distance
-  //! does not fall from there within kProbe on any triangle around. Points nearer than kProbe to each other in the
-  //! plane count once.
-  void localMinima(const PlanarCopy& copy, const std::array<int, 3>* triangles, int count, double limit,
-                   std::vector<MaterialPoint>* found);
-
  private:
   using Corners = std::array<Point2, 3>;
 
@@ -40,12 +34,10 @@ class PlanarSurface {
   MaterialPoint nearestMiddle(const Corners& corners, const std::array<int, 3>& triangle, double bound,
                               bool may_contain_circle);
   void enterCircles(const Corners& corners, double bound, MaterialPoint* best) const;
-  bool fallsAround(const PlanarCopy& copy, const std::array<int, 3>* triangles, int count, const MaterialPoint& place);
 
   PlanarRegion& region_;
   std::vector<InscribedCircle> circles_;  // the largest first
   std::vector<double> lower_;             // m, of the copy's points
-  std::vector<MaterialPoint> candidates_;
 };
 
 }  // namespace distance

@@ -21,16 +21,6 @@ void bindDistances(py::module_& module);
 
 namespace {
 
-Selection toSelection(const std::string& name) {
-  if (name == "local") {
-    return Selection::LOCAL;
-  }
-  if (name == "elements") {
-    return Selection::ELEMENTS;
-  }
-  throw py::value_error("features is '" + name + "'; allowed are 'local' and 'elements'");
-}
-
 //! The computation with the names of its obstacles.
 struct NamedMinimumDistance {
   MinimumDistance native;
@@ -73,15 +63,14 @@ PYBIND11_MODULE(_distance, module) {
   py::class_<NamedMinimumDistance>(
       module, "MinimumDistance",
       "Signed minimum distances between all copies of an object and several obstacles, from surface to surface.\n\n"
-      "Raises ValueError: margin or band [m] is negative or not finite, or features is neither 'local' nor\n"
-      "'elements'.")
+      "Raises ValueError: margin or band [m] is negative or not finite.")
       .def(py::init([](std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band,
-                       const std::string& features, std::vector<std::string> names) {
+                       std::vector<std::string> names) {
              requireObstacles(obstacles);
-             return NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band, toSelection(features)),
+             return NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band),
                                          std::make_shared<const std::vector<std::string>>(std::move(names))};
            }),
-           py::arg("obstacles"), py::arg("margin"), py::arg("band"), py::arg("features"),
+           py::arg("obstacles"), py::arg("margin"), py::arg("band"),
            py::arg("names") = std::vector<std::string>())
       .def("compute", &compute, py::arg("points"), py::arg("triangles") = py::none(),
            "Distances of points (C, P, 3) [m] with triangles (T, 3), or None for a polyline. Raises ValueError for "

@@ -83,11 +83,9 @@ def grid_triangles(cells):
     )
 
 
-def compute(mesh, points, triangles=None, band=0.3, features="elements", margin=0.0, pose=()):
+def compute(mesh, points, triangles=None, band=0.3, margin=0.0, pose=()):
     """Fields of Distances of one copy, or several."""
-    calculator = _distance.MinimumDistance(
-        [_distance.MeshObstacle(*mesh, *pose)], margin, band, features
-    )
+    calculator = _distance.MinimumDistance([_distance.MeshObstacle(*mesh, *pose)], margin, band)
     points = np.asarray(points, dtype=float)
     return fields(calculator, points if points.ndim == 3 else points[None], triangles)
 

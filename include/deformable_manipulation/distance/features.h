@@ -24,7 +24,7 @@ struct Feature {
   Vector3 obstacle_velocity = Vector3::Zero();  //!< [m/s] of the obstacle at its point
   std::array<int, 3> vertices = {0, 0, 0};
   std::array<double, 3> weights = {0.0, 0.0, 0.0};  //!< not negative, sum 1
-  std::int64_t identity = -1;                       //!< the same from call to call, see FeatureTracker; -1: none
+  std::int64_t identity = -1;                       //!< of obstacle and element, the same from call to call; -1: none
 };
 
 //! Features of C copies of an object; those of copy c are features[offsets[c]] to

@@ -24,10 +24,8 @@ namespace distance {
 //! the object to the nearest point of the surface; within 1e-9 m of the surface they are its outward normal (of a
 //! surface that is not closed, that of the triangle).
 //!
-//! Features:
-//! - Selection::ELEMENTS: the nearest, or deepest, point of each segment or triangle. Where corners of it are as near
-//!   as that, their mean, if it is as near, too.
-//! - Selection::LOCAL: those from which the distance does not fall: no other element at the same place comes nearer.
+//! Features: the nearest, or deepest, point of each segment or triangle. Where corners of it are as near as that, their
+//! mean, if it is as near, too.
 class MeshObstacle : public Obstacle {
  public:
   //! @param vertices [m] in the obstacle's own frame
@@ -49,7 +47,7 @@ class MeshObstacle : public Obstacle {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   void minima(const ObjectView& object, Feature* nearest) override;
-  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) override;
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;

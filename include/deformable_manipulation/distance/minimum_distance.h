@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "deformable_manipulation/distance/feature_tracker.h"
 #include "deformable_manipulation/distance/obstacle.h"
 
 namespace deformable_manipulation {
@@ -16,10 +15,10 @@ class MinimumDistance {
   //! @param margin [m] from the object's centre line or mid-surface to its surface: radius or half thickness
   //! @param band [m] features of copy 0 up to this much farther than its minimum are told
   //! @throw std::invalid_argument if a length is negative or not finite
-  MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band, Selection selection);
+  MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band);
 
   //! Copy 0 has all its features within the band, every other copy its minimum alone.
-  //! All but the features' identities depends on the arguments alone. The result is valid until the next call.
+  //! It depends on the arguments alone. The result is valid until the next call.
   //! @throw std::invalid_argument if there is no copy, a copy has fewer than two points, a triangle refers to
   //! a point that does not exist, or a coordinate is not finite or beyond 1e6 m.
   const Distances& compute(const ObjectView& object);
@@ -30,8 +29,6 @@ class MinimumDistance {
   std::vector<std::shared_ptr<Obstacle>> obstacles_;
   double margin_;
   double band_;
-  Selection selection_;
-  FeatureTracker tracker_;
   Distances result_;
   std::vector<Feature> nearest_;  // [copies] over the obstacles so far
   std::vector<Feature> of_one_;   // [copies] of one obstacle

@@ -7,12 +7,6 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Which nearest points of the object itself are features of their own.
-enum class Selection {
-  LOCAL,    //!< local minima of the signed distance over the object
-  ELEMENTS  //!< the nearest point of each segment or triangle
-};
-
 //! Something to keep off. Distances are from the object's centre line or mid-surface; a signed
 //! distance is the least over the object's points of their own signed distance to the obstacle's
 //! surface, negative inside.
@@ -27,8 +21,9 @@ class Obstacle {
   //! @param nearest [copies] filled but for `obstacle`
   virtual void minima(const ObjectView& object, Feature* nearest) = 0;
 
-  //! Appends the selected features of copy 0 whose signed distance is at most `limit` [m], in any order.
-  virtual void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) = 0;
+  //! Appends the nearest point of each segment or triangle of copy 0 whose signed distance is at most `limit` [m], in
+  //! any order.
+  virtual void features(const ObjectView& object, double limit, std::vector<Feature>* found) = 0;
 };
 
 }  // namespace distance

@@ -16,13 +16,8 @@ namespace distance {
 //! point from the obstacle to the object, inside from the object to the nearest point of the boundary; within 1e-9 m of
 //! the boundary they are the edge's outward normal. Triangles of a surface count as filled, seen along the normal.
 //!
-//! Features of a polyline:
-//! - Selection::LOCAL: the local minima of the signed distance along it. A stretch level with an edge counts once, by
-//!   its middle.
-//! - Selection::ELEMENTS: the nearest point of each segment; where it is level with an edge, the middle of the nearest
-//!   stretch.
-//! Features of a surface: the nearest point of each triangle, the mean of several if that is as near; for
-//! Selection::LOCAL those of them from which the signed distance falls on no triangle around.
+//! Features of a polyline: the nearest point of each segment; where it is level with an edge, the middle of the nearest
+//! stretch. Features of a surface: the nearest point of each triangle, the mean of several if that is as near.
 class PlanarObstacle : public Obstacle {
  public:
   //! @param points [m] (a, b), corners of a simple polygon of either orientation, on the obstacle's own axes that
@@ -43,7 +38,7 @@ class PlanarObstacle : public Obstacle {
   void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
 
   void minima(const ObjectView& object, Feature* nearest) override;
-  void features(const ObjectView& object, Selection selection, double limit, std::vector<Feature>* found) override;
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;

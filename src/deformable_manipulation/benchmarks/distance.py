@@ -119,7 +119,7 @@ def _own(obstacle, triangles) -> list:
     """This package's computations, by name. Without a band copy 0 has hardly any other feature."""
     found = []
     for name, band in (("minimum", 0.0), ("features", 0.1)):
-        calculator = _distance.MinimumDistance([obstacle], 0.0, band, "elements")
+        calculator = _distance.MinimumDistance([obstacle], 0.0, band)
 
         def call(points, calculator=calculator):
             return calculator.compute(points, triangles)[0]

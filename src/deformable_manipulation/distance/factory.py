@@ -19,4 +19,4 @@ def make_minimum_distance(scenario: Scenario):
         from deformable_manipulation.distance.reference import ReferenceMinimumDistance
 
         backend = ReferenceMinimumDistance
-    return backend(scenario.obstacles, body.margin, collision.band, "elements", body.faces())
+    return backend(scenario.obstacles, body.margin, collision.band, body.faces())

@@ -2,6 +2,4 @@
 
 from deformable_manipulation._distance import Distances
 
-NOT_FOLLOWED = -1  # identity of a feature that has none
-
-__all__ = ["NOT_FOLLOWED", "Distances"]
+__all__ = ["Distances"]

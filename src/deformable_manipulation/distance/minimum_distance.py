@@ -10,7 +10,6 @@ from deformable_manipulation.geometry.planes import PLANE_AXES
 from deformable_manipulation.geometry.polygons import check_ring
 from deformable_manipulation.scenario.spec import MeshObstacle
 
-SELECTIONS = ("local", "elements")
 _UNIT_TOLERANCE = 1e-6
 
 
@@ -23,34 +22,28 @@ class MinimumDistance:
     inside where it is closed (docs/mathematics.md). Obstacles count one by one: where two overlap,
     the depth is that in one of them, not in their union.
 
-    Features of copy 0, the object itself, up to ``band`` farther than its minimum, of every
-    obstacle:
+    Features of copy 0, the object itself, are the nearest points of each segment or triangle to
+    every obstacle, up to ``band`` farther than its minimum. Rows of a barrier for each of them do
+    not jump when the object turns along an edge. Every other copy has one feature, its minimum.
+    Within a segment the nearest points' weights are those of its two ends. A normal points from the
+    obstacle to the object, inside from the object to the nearest point of the boundary; on the
+    boundary it is the outward normal.
 
-    - ``features="elements"``: the nearest point of each segment or triangle. Rows of a barrier for
-      each of them do not jump when the object turns along an edge.
-    - ``features="local"``: the local minima of the signed distance over the object. A stretch level
-      with a polygon's edge counts once, by its middle.
-
-    Every other copy has one feature, its minimum. Within a segment the nearest points' weights are
-    those of its two ends. A normal points from the obstacle to the object, inside from the object
-    to the nearest point of the boundary; on the boundary it is the outward normal.
-
-    But for the features' identities the result depends on the points alone, not on calls before.
+    The result depends on the points alone, not on calls before.
     One instance must not be used by several threads at a time: it remembers what was nearest.
 
     Args:
         obstacles: sequence of scenario.spec.PolygonObstacle and MeshObstacle.
         margin: radius or half thickness of the object, subtracted from all distances [m], >= 0.
         band: [m], >= 0.
-        features: "local" or "elements".
         triangles: (T, 3) indices of the object's points, T >= 1; None: a polyline through them.
 
     Raises:
         ValueError: something is wrong; the message has all mistakes at once.
     """
 
-    def __init__(self, obstacles, margin, band=0.1, features="elements", triangles=None):
-        problems = setting_problems(obstacles, margin, band, features, triangles)
+    def __init__(self, obstacles, margin, band=0.1, triangles=None):
+        problems = setting_problems(obstacles, margin, band, triangles)
         native = []
         for spec in obstacles:
             if not pose_problems(spec):
@@ -63,7 +56,7 @@ class MinimumDistance:
         self._obstacles = native
         self._triangles = None if triangles is None else np.ascontiguousarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
-        self._native = _distance.MinimumDistance(native, margin, band, features, list(self.names))
+        self._native = _distance.MinimumDistance(native, margin, band, list(self.names))
         #: Sentences about what was mended or ignored in the meshes.
         self.warnings = tuple(
             "obstacle {!r}: {}".format(spec.name, warning)
@@ -111,15 +104,13 @@ def checked_points(points):
     return points
 
 
-def setting_problems(obstacles, margin, band, features, triangles):
+def setting_problems(obstacles, margin, band, triangles):
     """What is wrong with the arguments of a MinimumDistance, but for the obstacles' shapes."""
     problems = [
         "{} is {!r}; it must be a finite number of metres, 0 or more".format(key, value)
         for key, value in (("margin", margin), ("band", band))
         if not (_is_number(value) and value >= 0.0)
     ]
-    if features not in SELECTIONS:
-        problems.append("features is {!r}; allowed are {}".format(features, _quoted(SELECTIONS)))
     if triangles is not None:
         given = np.asarray(triangles)
         if given.dtype.kind not in "iu" or given.ndim != 2 or not len(given) or given.shape[1] != 3:

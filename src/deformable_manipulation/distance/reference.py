@@ -30,14 +30,13 @@ class ReferenceMinimumDistance:
     Outside, distances are those of FCL (meshes) and Shapely (polygons). An element that reaches
     inside has minus the depth of the deepest of some points on it, so depths are too small by up to
     an eighth of its longest side. Meshes that Trimesh does not call watertight have no sign; the
-    components of a mesh are taken as one surface. With ``features="local"`` there is the nearest
-    feature of each obstacle alone.
+    components of a mesh are taken as one surface.
 
     Arguments and errors are those of MinimumDistance.
     """
 
-    def __init__(self, obstacles, margin, band=0.1, features="elements", triangles=None):
-        problems = setting_problems(obstacles, margin, band, features, triangles)
+    def __init__(self, obstacles, margin, band=0.1, triangles=None):
+        problems = setting_problems(obstacles, margin, band, triangles)
         self._shapes = []
         if not problems:
             for spec in obstacles:
@@ -49,7 +48,7 @@ class ReferenceMinimumDistance:
             raise ValueError("\n".join(problems))
         self._obstacles = list(obstacles)
         self._velocities = [(np.zeros(3), np.zeros(3))] * len(self._obstacles)
-        self._margin, self._band, self._selection = margin, band, features
+        self._margin, self._band = margin, band
         self._triangles = None if triangles is None else np.asarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
         self.warnings = ()
@@ -99,8 +98,7 @@ class ReferenceMinimumDistance:
                 _Row(index, vertices, self._nearest(shape, geometry[vertices]), shape, geometry)
                 for vertices in elements
             ]
-            rows.sort(key=lambda row: row.distance)
-            found += rows if self._selection == "elements" else rows[:1]
+            found += rows
         return sorted(found, key=lambda row: row.distance)
 
     @staticmethod

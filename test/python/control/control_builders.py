@@ -4,6 +4,7 @@ import numpy as np
 
 from deformable_manipulation import _control
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.team import TeamController
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.spec import (
@@ -45,6 +46,24 @@ def scenario(assistants=1, waypoints=((0.0, (0.0, 0.0, 0.0)),), **controller):
         controller=ControllerSpec(**settings),
         simulation=SimulationSpec(duration=1.0),
     )
+
+
+class Alone:
+    """A controller of one assistant, which is named once."""
+
+    def __init__(self, scenario, name="assistant_1", safety=True):
+        self.team = TeamController(scenario, (name,), safety)
+        self._name = name
+
+    def update(self, observation):
+        """Its Decision."""
+        return self.team.update(observation)[self._name]
+
+    def take_reference(self, observation):
+        self.team.take_reference(self._name, observation)
+
+    def enable(self, enabled):
+        self.team.set_enabled(self._name, enabled)
 
 
 class LinearObject:

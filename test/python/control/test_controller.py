@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from mesh_reference import changed
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.scenario.spec import CollisionSpec, OverstretchSpec, ProximitySpec
 
@@ -30,7 +29,7 @@ def observed(scenario, time=0.0, positions=None, obstacle=FAR, **settings):
 
 
 def test_rests_on_its_target(scenario):
-    decision = AssistantController(scenario, "assistant_1").update(observed(scenario))
+    decision = build.Alone(scenario).update(observed(scenario))
     assert decision.status == Status.NOMINAL
     np.testing.assert_array_equal(decision.command, 0.0)
     np.testing.assert_array_equal(decision.target, [0.0, 1.5, 1.0])
@@ -44,7 +43,7 @@ def test_rests_on_its_target(scenario):
 
 def test_returns_to_its_target_within_its_limits(scenario):
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     first = controller.update(observed(scenario, 0.0, positions))
     np.testing.assert_allclose(first.nominal, [0.0, 0.5, 0.0], atol=1e-12)
     np.testing.assert_allclose(first.command, [0.0, 0.01, 0.0], atol=1e-12)  # 1 m/s^2
@@ -57,7 +56,7 @@ def test_returns_to_its_target_within_its_limits(scenario):
 def test_the_nominal_law_looks_ahead_to_when_the_command_acts(scenario):
     """Own point by the command that acts until then, leader by its measured velocity."""
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     first = controller.update(observed(scenario, 0.0, positions))
     leader_velocity = np.array([0.0, 0.03, -0.05])
     moved = positions + DT * np.array([leader_velocity, np.zeros(3)])
@@ -68,32 +67,32 @@ def test_the_nominal_law_looks_ahead_to_when_the_command_acts(scenario):
 
 def test_takes_the_present_relative_position_as_reference(scenario):
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.1]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.take_reference(observed(scenario, 0.0, positions))
     decision = controller.update(observed(scenario, 0.0, positions))
     np.testing.assert_array_equal(decision.target, positions[1])
     np.testing.assert_array_equal(decision.command, 0.0)
-    controller.reset()
+    controller.team.reset()
     again = controller.update(observed(scenario, 0.0, positions))
     np.testing.assert_array_equal(again.target, [0.0, 1.5, 1.0])
 
 
 def test_refuses_a_reference_that_is_not_finite(scenario):
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     with pytest.raises(ValueError, match="positions"):
         controller.take_reference(observed(scenario, positions=np.full((2, 3), np.nan)))
 
 
 def test_disabled_sends_zero_and_still_measures(scenario):
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.update(observed(scenario, 0.0, positions))
-    controller.enabled = False
+    controller.enable(False)
     decision = controller.update(observed(scenario, 0.0, positions))
     assert decision.status == Status.DISABLED and not decision.enabled
     np.testing.assert_array_equal(decision.command, 0.0)
     assert decision.error_norm == pytest.approx(0.5)
-    controller.enabled = True
+    controller.enable(True)
     again = controller.update(observed(scenario, DT, positions))
     np.testing.assert_allclose(again.command, [0.0, 0.01, 0.0], atol=1e-12)
 
@@ -116,7 +115,7 @@ def test_disabled_sends_zero_and_still_measures(scenario):
     ],
 )
 def test_waits_for_input_that_is_finite_and_names_the_field(scenario, field, value, safety):
-    controller = AssistantController(scenario, "assistant_1", safety=safety)
+    controller = build.Alone(scenario, safety=safety)
     observation = broken(observed(scenario), field, value)
     decision = controller.update(observation)
     assert decision.status == Status.WAITING
@@ -149,7 +148,7 @@ def broken(observation, field, value):
 )
 def test_waits_for_input_of_the_right_shape(scenario, field, value):
     observation = dataclasses.replace(observed(scenario), **{field: value})
-    decision = AssistantController(scenario, "assistant_1").update(observation)
+    decision = build.Alone(scenario).update(observation)
     assert decision.status == Status.WAITING and field in decision.text
 
 
@@ -171,7 +170,7 @@ def test_waits_for_input_of_the_right_shape(scenario, field, value):
 )
 def test_waits_for_input_of_the_right_type(scenario, field, value):
     observation = dataclasses.replace(observed(scenario), **{field: value})
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     decision = controller.update(observation)
     assert decision.status == Status.WAITING and field in decision.text
     np.testing.assert_array_equal(decision.command, 0.0)
@@ -181,14 +180,14 @@ def test_waits_for_input_of_the_right_type(scenario, field, value):
 
 @pytest.mark.parametrize("observation", [None, 3, {"time": 0.0}])
 def test_waits_for_an_observation(scenario, observation):
-    decision = AssistantController(scenario, "assistant_1").update(observation)
+    decision = build.Alone(scenario).update(observation)
     assert decision.status == Status.WAITING
     assert "not an Observation" in decision.text
 
 
 @pytest.mark.parametrize("safety", [True, False])
 def test_enormous_numbers_never_give_a_command_that_is_not_finite(scenario, safety):
-    controller = AssistantController(scenario, "assistant_1", safety=safety)
+    controller = build.Alone(scenario, safety=safety)
     with np.errstate(all="ignore"):
         for k, size in enumerate((0.0, 1e300, -1e308, 1e308, 1e-308)):
             decision = controller.update(observed(scenario, k * DT, starts(scenario) + size))
@@ -197,7 +196,7 @@ def test_enormous_numbers_never_give_a_command_that_is_not_finite(scenario, safe
 
 
 def test_waits_for_its_copies(scenario):
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     moving = np.array([True, False, True, True])
     decision = controller.update(observed(scenario, obstacle=GROUND, ready=moving))
     assert decision.status == Status.WAITING and "assistant_1" in decision.text
@@ -210,16 +209,14 @@ def test_waits_for_its_copies(scenario):
 
 def test_needs_no_copies_without_obstacles(scenario):
     none = (np.array([-1]), np.zeros((1, 3)))
-    decision = AssistantController(scenario, "assistant_1").update(
-        observed(scenario, obstacle=None, copies=none)
-    )
+    decision = build.Alone(scenario).update(observed(scenario, obstacle=None, copies=none))
     assert decision.status == Status.NOMINAL
     assert decision.distance == np.inf and decision.rows == 2
 
 
 def test_a_state_is_answered_once(scenario):
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.update(observed(scenario, 0.0, positions))
     second = controller.update(observed(scenario, DT, positions))
     assert controller.update(observed(scenario, DT, positions)) is second
@@ -229,7 +226,7 @@ def test_a_state_is_answered_once(scenario):
 
 
 def test_time_set_back_starts_afresh(scenario):
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.update(observed(scenario, 10.0))
     moved = starts(scenario) + [1.0, 0.0, 0.0]
     decision = controller.update(observed(scenario, 0.0, moved))
@@ -239,7 +236,7 @@ def test_time_set_back_starts_afresh(scenario):
 
 def test_the_reference_outlives_time_set_back(scenario):
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.take_reference(observed(scenario, 0.0, positions))
     controller.update(observed(scenario, 10.0, positions))
     decision = controller.update(observed(scenario, 0.0, positions))
@@ -248,12 +245,12 @@ def test_the_reference_outlives_time_set_back(scenario):
 
 def test_without_safety_the_nominal_velocity_passes_within_its_limits(scenario):
     positions = starts(scenario) * [1.0, 1.0, 0.1]  # the object is in the ground
-    controller = AssistantController(scenario, "assistant_1", safety=False)
+    controller = build.Alone(scenario, safety=False)
     decision = controller.update(observed(scenario, 0.0, positions, GROUND))
     assert decision.status == Status.UNSAFE_FILTER_OFF
     assert decision.h["collision"] < 0.0
     np.testing.assert_array_equal(decision.command, 0.0)
-    guarded = AssistantController(scenario, "assistant_1")
+    guarded = build.Alone(scenario)
     lifted = guarded.update(observed(scenario, 0.0, positions, GROUND))
     assert lifted.command[2] == pytest.approx(0.01)
     assert lifted.status == Status.RELAXED and "collision by" in lifted.text
@@ -264,7 +261,7 @@ def test_the_single_row_of_the_paper():
         formulation="paper", collision=CollisionSpec(offset=0.05, gradient="minimum")
     )
     observation = observed(scenario, obstacle=GROUND)
-    decision = AssistantController(scenario, "assistant_1").update(observation)
+    decision = build.Alone(scenario).update(observation)
     assert decision.rows == 3
     copies, minimum = observation.displaced_agents == 1, observation.distances.minimum
     np.testing.assert_allclose(decision.jacobian, (minimum[copies] - minimum[0]) / 0.1)
@@ -285,7 +282,7 @@ def papers(**settings):
 def test_the_papers_nominal_law_and_bound():
     """Eq. 2 and the velocity bound alone: no prediction, no leader's velocity, no acceleration."""
     scenario = papers()
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
     first = controller.update(observed(scenario, 0.0, positions))
     np.testing.assert_allclose(first.nominal, [0.0, 0.5, 0.0], atol=1e-12)
@@ -298,9 +295,7 @@ def test_the_papers_nominal_law_and_bound():
 def test_the_paper_has_no_answer_where_limits_contradict():
     scenario = papers()
     positions = starts(scenario) * [1.0, 1.0, 0.0]  # on the ground, the object in it
-    decision = AssistantController(scenario, "assistant_1").update(
-        observed(scenario, 0.0, positions, GROUND)
-    )
+    decision = build.Alone(scenario).update(observed(scenario, 0.0, positions, GROUND))
     assert decision.status == Status.FAILED
     np.testing.assert_array_equal(decision.command, 0.0)
 
@@ -312,7 +307,7 @@ def test_the_users_priority_decides_which_limit_yields(scenario):
     velocities = []
     for first, second in (("collision", "proximity"), ("proximity", "collision")):
         chosen = build.scenario(priority=(first, second, "overstretch"), **settings)
-        controller = AssistantController(chosen, "assistant_1")
+        controller = build.Alone(chosen)
         decision = controller.update(observed(chosen, obstacle=wall))
         assert decision.status == Status.RELAXED
         assert decision.slack[first] == 0.0 < decision.slack[second]
@@ -324,7 +319,7 @@ def test_the_users_priority_decides_which_limit_yields(scenario):
 def test_unknown_agents_are_refused(scenario):
     for name in ("leader", "assistant_7"):
         with pytest.raises(ValueError, match=f"agent: '{name}'.*assistant_1"):
-            AssistantController(scenario, name)
+            build.Alone(scenario, name)
 
 
 def test_statuses_are_those_of_the_message_and_have_a_sentence():
@@ -343,7 +338,7 @@ def test_statuses_are_those_of_the_message_and_have_a_sentence():
 def test_goes_on_with_other_parameters_without_forgetting(scenario):
     """Command, measured velocities and reference stay; gains and limits are the new ones."""
     positions = starts(scenario) + [[0.0, 0.0, 0.0], [0.0, -0.5, 0.0]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     controller.take_reference(observed(scenario, 0.0, starts(scenario) + [[0, 0, 0], [0, 0.1, 0]]))
     for k in range(40):
         controller.update(observed(scenario, k * DT, positions))
@@ -359,7 +354,7 @@ def test_goes_on_with_other_parameters_without_forgetting(scenario):
         ),
     )
     before = controller.update(observed(scenario, 0.4, positions))
-    controller.set_parameters(changed)
+    controller.team.set_parameters(changed)
     after = controller.update(observed(scenario, 0.41, positions))
     np.testing.assert_array_equal(after.target, before.target)
     np.testing.assert_allclose(after.command - before.command, [0.0, -0.005, 0.0], atol=1e-12)
@@ -367,13 +362,13 @@ def test_goes_on_with_other_parameters_without_forgetting(scenario):
     assert before.h["collision"] - after.h["collision"] == pytest.approx(0.45)
     assert before.h["overstretch"] - after.h["overstretch"] == pytest.approx(0.2)
     assert before.h["proximity"] - after.h["proximity"] == pytest.approx(0.1)
-    controller.reset()
+    controller.team.reset()
     again = controller.update(observed(scenario, 0.0, positions))
     np.testing.assert_array_equal(again.target, [0.0, 1.5, 1.0])
     assert again.h["proximity"] == after.h["proximity"]
 
 
 def test_refuses_parameters_of_other_agents(scenario):
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     with pytest.raises(ValueError, match="other agents"):
-        controller.set_parameters(build.scenario(assistants=2))
+        controller.team.set_parameters(build.scenario(assistants=2))

@@ -6,7 +6,6 @@ import pytest
 from mesh_reference import changed
 
 from deformable_manipulation._control import Differences, response_features
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
 
 AGENTS = 3  # the first is the leader
@@ -50,7 +49,7 @@ def test_nearest_only_is_the_minimum(seen):
 
 
 def controller(**settings):
-    return AssistantController(build.scenario(2, **settings), "assistant_1")
+    return build.Alone(build.scenario(2, **settings))
 
 
 def without_copies(observation):

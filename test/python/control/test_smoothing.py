@@ -4,7 +4,6 @@ import control_builders as build
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
 
 TILT = np.radians(5.0)
@@ -21,7 +20,7 @@ def answers(smoothing, tilts):
     """Decisions of an assistant held off its place, on ground of each tilt; None: no ground."""
     scenario = build.scenario(smoothing=smoothing, max_acceleration=100.0, max_velocity=1.0)
     positions = np.array([agent.start for agent in scenario.agents]) + [[0, 0, 0], [0, 0, 0.4]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     chain = build.hanging_chain(2, sag=0.3, points=3)
     return [
         controller.update(build.observe(0.01 * k, positions, chain, obstacle))
@@ -63,7 +62,7 @@ def test_a_reference_taken_is_kept_at_once():
     """Nothing is left of the departure from the former one."""
     scenario = build.scenario(smoothing=T)
     positions = np.array([agent.start for agent in scenario.agents]) + [[0, 0, 0], [0, 0, 0.4]]
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     chain = build.hanging_chain(2, sag=0.3, points=3)
     for k in range(301):
         observation = build.observe(0.01 * k, positions, chain, ground(0.0))
@@ -77,7 +76,7 @@ def test_a_reference_taken_is_kept_at_once():
 def test_bounds_alone_leave_no_departure():
     """Far from obstacles a leader that starts at once is followed at the full acceleration."""
     scenario = build.scenario(smoothing=T)
-    controller = AssistantController(scenario, "assistant_1")
+    controller = build.Alone(scenario)
     chain, start = build.hanging_chain(2, sag=0.3), [agent.start for agent in scenario.agents]
     for k in range(13):
         moved = np.array(start) + [[0.0, 0.001 * k, 0.0], [0.0, 0.0, 0.0]]

@@ -4,7 +4,6 @@ import control_builders as build
 import numpy as np
 import pytest
 
-from deformable_manipulation.control.controller import AssistantController
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.scenario.spec import CENTRALISED
@@ -37,7 +36,7 @@ def test_each_has_a_decision_of_its_own(scenario):
     decisions = team.update(observed(scenario, shift=shift))
     assert tuple(decisions) == team.names == NAMES
     for name, at, decision in zip(NAMES, shift[1:], decisions.values()):
-        alone = AssistantController(scenario, name).update(observed(scenario, shift=shift))
+        alone = build.Alone(scenario, name).update(observed(scenario, shift=shift))
         np.testing.assert_allclose(decision.command, -at, atol=1e-12)
         for field in ("nominal", "position", "target", "jacobian"):
             np.testing.assert_array_equal(getattr(decision, field), getattr(alone, field))

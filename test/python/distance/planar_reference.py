@@ -55,9 +55,9 @@ def in_plane(points):
     )
 
 
-def compute(ring, line, radius=0.0, band=0.1, features="local"):
+def compute(ring, line, radius=0.0, band=0.1):
     """Distances of one polyline (P, 2) to one polygon of the xy plane."""
-    calculator = MinimumDistance([obstacle(ring)], radius, band, features)
+    calculator = MinimumDistance([obstacle(ring)], radius, band)
     return calculator.compute(in_plane(line)[None])
 
 
@@ -114,25 +114,3 @@ def bounds_of_minimum(ring, line, count=1001):
 
 def _reached(line):
     return np.concatenate(((0.0,), np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))))
-
-
-def arc_length(line, distances, row):
-    """Arc length [m] in the plane of a feature's object point."""
-    return distances.weights[row] @ _reached(line)[distances.vertices[row]]
-
-
-def sampled_local_minima(places, values, level=1e-9):
-    """Middles (K,) and values (K,) of the sampled function's local minima, plateaus once."""
-    change = np.diff(values)
-    change[np.abs(change) <= level] = 0.0
-    middles, lowest = [], []
-    falling_from, direction = 0, -1  # before the first sample everything is higher
-    for index, step in enumerate(np.append(change, 1.0)):
-        if step < 0.0:
-            falling_from, direction = index + 1, -1
-        elif step > 0.0:
-            if direction < 0:
-                middles.append(0.5 * (places[falling_from] + places[index]))
-                lowest.append(values[falling_from])
-            direction = 1
-    return np.array(middles), np.array(lowest)

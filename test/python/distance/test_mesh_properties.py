@@ -71,16 +71,16 @@ def test_witnesses(seed):
 
 
 @MANY
-@given(seed=seeds, features=st.sampled_from(["local", "elements"]))
-def test_results_do_not_depend_on_calls_before(seed, features):
+@given(seed=seeds)
+def test_results_do_not_depend_on_calls_before(seed):
     rng = np.random.default_rng(seed)
     mesh, points, triangles = scene(seed)
     copies = points + rng.normal(scale=0.1, size=(5, 1, 3))
     obstacle = _distance.MeshObstacle(*mesh)
-    used = _distance.MinimumDistance([obstacle], 0.01, BAND, features)
+    used = _distance.MinimumDistance([obstacle], 0.01, BAND)
     for shift in (0.0, 0.3, -1.5):
         used.compute(copies[::-1] + shift, triangles)
-    fresh = _distance.MinimumDistance([_distance.MeshObstacle(*mesh)], 0.01, BAND, features)
+    fresh = _distance.MinimumDistance([_distance.MeshObstacle(*mesh)], 0.01, BAND)
     together, alone = fields(used, copies, triangles), fields(fresh, copies, triangles)
     for name in reference.FIELDS[:-1]:
         np.testing.assert_array_equal(together[name], alone[name], err_msg=name)
@@ -96,14 +96,14 @@ def test_results_do_not_depend_on_the_way_there(seed, step):
     mesh, points, triangles = scene(seed)
     copies = points + rng.normal(scale=0.1, size=(3, 1, 3))
     obstacle = _distance.MeshObstacle(*mesh)
-    used = _distance.MinimumDistance([obstacle], 0.0, BAND, "elements")
+    used = _distance.MinimumDistance([obstacle], 0.0, BAND)
     way = rng.normal(size=3)
     for _ in range(12):
         copies = copies + step * (way + 0.3 * rng.normal(size=copies.shape))
         pose = step * rng.normal(size=3), Rotation.from_rotvec(step * rng.normal(size=3)).as_quat()
         obstacle.set_pose(*pose)
         found = fields(used, copies, triangles)
-    fresh = _distance.MinimumDistance([_distance.MeshObstacle(*mesh, *pose)], 0.0, BAND, "elements")
+    fresh = _distance.MinimumDistance([_distance.MeshObstacle(*mesh, *pose)], 0.0, BAND)
     alone = fields(fresh, copies, triangles)
     for name in reference.FIELDS[:-1]:
         np.testing.assert_array_equal(found[name], alone[name], err_msg=name)
@@ -118,7 +118,7 @@ def test_moving_everything_rigidly_changes_no_distance(seed, size):
     plain = compute(mesh, points, triangles, size * BAND)
     rotation, translation = Rotation.random(random_state=seed), size * rng.uniform(-3, 3, 3)
     obstacle = _distance.MeshObstacle(*mesh)
-    calculator = _distance.MinimumDistance([obstacle], 0.0, size * BAND, "elements")
+    calculator = _distance.MinimumDistance([obstacle], 0.0, size * BAND)
     calculator.compute(points[None], triangles)
     linear, angular = rng.uniform(-1.0, 1.0, (2, 3))
     obstacle.set_pose(translation, rotation.as_quat(), linear, angular)
@@ -126,18 +126,3 @@ def test_moving_everything_rigidly_changes_no_distance(seed, size):
     assert moved["minimum"] == pytest.approx(plain["minimum"], abs=TOLERANCE + 1e-9 * size)
     arm = moved["obstacle_point"] - translation
     assert moved["obstacle_velocity"] == pytest.approx(linear + np.cross(angular, arm))
-
-
-@MANY
-@given(seed=seeds)
-def test_local_minima_are_minima_and_the_least_is_there(seed):
-    mesh, points, triangles = scene(seed)
-    elements = compute(mesh, points, triangles, 10.0)
-    local = compute(mesh, points, triangles, 10.0, features="local")
-    assert local["minimum"] == pytest.approx(elements["minimum"], abs=1e-12)
-    assert local["distance"][0] == local["minimum"][0]
-    for at, distance in zip(local["object_point"], local["distance"]):
-        same = np.linalg.norm(elements["object_point"] - at, axis=1) < 1e-9
-        assert elements["distance"][same].min() >= distance - 1e-9
-    rows = {tuple(row) for row in local["vertices"]}
-    assert rows <= {tuple(row) for row in elements["vertices"]}

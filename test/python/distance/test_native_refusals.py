@@ -9,12 +9,12 @@ LINE = np.linspace([0.0, 0.0, 1.0], [0.0, 1.0, 1.0], 5)[None]
 @pytest.fixture
 def distance():
     wedge = _distance.PlanarObstacle([[-1, 0], [1, 0], [0, -1]])
-    return _distance.MinimumDistance([wedge], margin=0.1, band=0.1, features="elements")
+    return _distance.MinimumDistance([wedge], margin=0.1, band=0.1)
 
 
 def test_no_obstacle_in_place_of_one():
     with pytest.raises(ValueError, match=r"obstacles\[0\] is None"):
-        _distance.MinimumDistance([None], 0.1, band=0.1, features="elements")
+        _distance.MinimumDistance([None], 0.1, band=0.1)
 
 
 @pytest.mark.parametrize(

@@ -1,58 +1,12 @@
-"""Features of the object: local minima, segments, witnesses, normals."""
+"""Features of the object: segments, witnesses, normals."""
 
 import numpy as np
 import planar_reference as reference
 import pytest
 import shapely
-from planar_reference import HILLS, SQUARE, arc_length, compute, in_plane, obstacle
+from planar_reference import HILLS, SQUARE, compute, in_plane, obstacle
 
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-
-
-def test_one_straight_rod_over_two_equal_hills_has_two_features():
-    result = compute(HILLS, [(-1.0, 0.8), (1.0, 0.8)])
-    assert result.offsets.tolist() == [0, 2]
-    assert result.distance == pytest.approx([0.3, 0.3], abs=1e-12)
-    assert sorted(result.object_point[:, 0]) == pytest.approx([-0.5, 0.5], abs=1e-9)
-    assert result.vertices.tolist() == [[0, 1, 1], [0, 1, 1]]
-    assert np.sort(result.weights[:, 1]) == pytest.approx([0.25, 0.75], abs=1e-9)
-    assert result.normal == pytest.approx(np.tile([0.0, 1.0, 0.0], (2, 1)), abs=1e-9)
-
-
-def test_one_straight_rod_through_two_hills_has_two_features():
-    result = compute(HILLS, [(-1.0, 0.4), (1.0, 0.4)])
-    assert result.distance == pytest.approx([-0.1 / np.sqrt(2.0)] * 2, abs=1e-12)
-    assert sorted(result.object_point[:, 0]) == pytest.approx([-0.5, 0.5], abs=1e-9)
-
-
-def test_inside_one_and_above_the_other():
-    result = compute(HILLS, [(-1.0, 0.40), (-0.5, 0.45), (0.5, 0.52), (1.0, 0.6)])
-    assert len(result.distance) == 2
-    assert result.distance[0] < -0.02
-    assert 0.015 < result.distance[1] < 0.02
-    assert result.normal[1, 1] > 0.9
-
-
-@pytest.mark.parametrize(
-    "line, length",
-    [
-        ([(0.2, 1.1), (0.6, 1.1)], 0.2),  # parallel over its whole length
-        ([(-1.0, 1.1), (2.0, 1.1)], 1.5),  # beyond both ends of the edge
-        ([(0.2, 1.1), (0.4, 1.1), (0.5, 1.1), (2.0, 1.1)], 0.4),  # several segments
-        ([(0.4, 0.9), (0.6, 0.9)], 0.1),  # inside
-        ([(0.0, 1.5), (0.2, 1.1), (0.4, 1.1), (0.6, 1.5)], np.hypot(0.2, 0.4) + 0.1),
-    ],
-)
-def test_a_level_stretch_counts_once_by_its_middle(line, length):
-    result = compute(SQUARE, line)
-    assert len(result.distance) == 1
-    assert arc_length(line, result, 0) == pytest.approx(length, abs=1e-9)
-
-
-def test_a_level_stretch_on_the_way_down_does_not_count():
-    steps = ((0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 0.95), (0.0, 0.95))
-    result = compute(steps, [(0.0, 1.5), (0.3, 1.08), (0.6, 1.08), (2.0, 1.04)], band=0.2)
-    assert result.distance == pytest.approx([0.04], abs=1e-12)
 
 
 def test_features_end_at_the_band():
@@ -65,7 +19,7 @@ def test_features_end_at_the_band():
 
 def test_segments_have_a_feature_each():
     line = np.column_stack((np.linspace(-1.5, 1.5, 16), np.full(16, 0.7)))
-    result = compute(HILLS, line, band=0.25, features="elements")
+    result = compute(HILLS, line, band=0.25)
     polygon = shapely.Polygon(HILLS)
     expected = {
         s: polygon.distance(shapely.LineString(line[s : s + 2]))
@@ -81,7 +35,7 @@ def test_segments_have_a_feature_each():
 
 def test_segments_inside_and_outside():
     line = np.column_stack((np.linspace(-1.5, 1.5, 31), np.full(31, 0.42)))
-    result = compute(HILLS, line, band=0.3, features="elements")
+    result = compute(HILLS, line, band=0.3)
     bounds = [reference.bounds_of_minimum(HILLS, line[s : s + 2]) for s in range(30)]
     for segment, distance in zip(result.vertices[:, 0], result.distance):
         low, high = bounds[segment]
@@ -94,13 +48,13 @@ def test_segments_inside_and_outside():
 
 def test_a_segment_level_with_an_edge_is_represented_by_its_middle():
     line = [(0.1, 1.2), (0.3, 1.2), (0.9, 1.2), (1.5, 1.2)]
-    result = compute(SQUARE, line, features="elements")
+    result = compute(SQUARE, line)
     middles = {s: w for s, w in zip(result.vertices[:, 0].tolist(), result.weights[:, 1])}
     assert middles == pytest.approx({0: 0.5, 1: 0.5, 2: 0.05 / 0.6}, abs=1e-9)
 
 
 def test_a_segment_over_two_equal_hills_is_not_represented_by_the_valley():
-    result = compute(HILLS, [(-1.0, 0.8), (1.0, 0.8)], features="elements")
+    result = compute(HILLS, [(-1.0, 0.8), (1.0, 0.8)])
     assert result.distance == pytest.approx([0.3], abs=1e-12)
     assert abs(result.object_point[0, 0]) == pytest.approx(0.5, abs=1e-9)
 
@@ -108,9 +62,8 @@ def test_a_segment_over_two_equal_hills_is_not_represented_by_the_valley():
 @pytest.mark.parametrize(
     "line", [[(-0.5, 1.3), (0.2, 1.2), (1.8, 0.9)], [(0.3, 0.9), (0.35, 0.75), (0.9, 1.4)]]
 )
-@pytest.mark.parametrize("features", ["local", "elements"])
-def test_witness_points(line, features):
-    result = compute(SQUARE, line, radius=0.02, band=0.5, features=features)
+def test_witness_points(line):
+    result = compute(SQUARE, line, radius=0.02, band=0.5)
     boundary = shapely.LinearRing(SQUARE)
     points = in_plane(line)
     for row in range(len(result.distance)):
@@ -130,7 +83,7 @@ def test_witness_points(line, features):
 @pytest.mark.parametrize("height", [0.7, 0.45])
 def test_normal_is_the_gradient_of_the_material_points_distance(height):
     line = [(-1.4, height + 0.1), (-0.55, height), (0.6, height + 0.03), (1.5, height + 0.3)]
-    result = compute(HILLS, line, band=0.3, features="elements")
+    result = compute(HILLS, line, band=0.3)
     step = 1e-7
     for point, normal, distance in zip(result.object_point, result.normal, result.distance):
         for direction in np.eye(3):
@@ -144,9 +97,9 @@ def test_normal_is_the_gradient_of_the_material_points_distance(height):
 
 def test_normal_inside_points_to_the_nearest_boundary():
     result = compute(SQUARE, [(0.5, 1.5), (0.5, 0.8), (0.6, 1.5)])
-    assert result.distance == pytest.approx([-0.2], abs=1e-12)
-    assert result.normal == pytest.approx(np.array([[0.0, 1.0, 0.0]]), abs=1e-12)
-    assert result.obstacle_point[0, :2] == pytest.approx([0.5, 1.0], abs=1e-12)
+    assert result.distance == pytest.approx([-0.2, -0.2], abs=1e-12)  # the corner of both segments
+    assert result.normal == pytest.approx(np.tile([0.0, 1.0, 0.0], (2, 1)), abs=1e-12)
+    assert result.obstacle_point[:, :2] == pytest.approx(np.tile([0.5, 1.0], (2, 1)), abs=1e-12)
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-17, -1e-17, 1e-13, -1e-13])

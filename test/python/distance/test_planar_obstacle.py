@@ -29,9 +29,7 @@ def test_thousands_of_corners(seed):
     rng = np.random.default_rng(seed)
     ring = coast(rng)
     polygon = shapely.Polygon(ring)
-    calculator = _distance.MinimumDistance(
-        [_distance.PlanarObstacle(ring, "xy")], 0.0, band=0.1, features="elements"
-    )
+    calculator = _distance.MinimumDistance([_distance.PlanarObstacle(ring, "xy")], 0.0, band=0.1)
     for _ in range(5):
         steps = rng.uniform(0.01, 0.2) * rng.standard_normal((20, 2))
         line = rng.uniform(-1.5, 1.5, 2) + steps.cumsum(axis=0)
@@ -49,14 +47,14 @@ def test_thousands_of_corners(seed):
 def test_a_moved_obstacle_is_as_a_new_one_there(seed, plane):
     rng = np.random.default_rng(seed)
     obstacle = _distance.PlanarObstacle(SQUARE, plane)
-    moved = _distance.MinimumDistance([obstacle], 0.01, band=0.1, features="elements")
+    moved = _distance.MinimumDistance([obstacle], 0.01, band=0.1)
     points = rng.uniform(-1.0, 1.0, (3, 6, 3))
     moved.compute(points)
     translation, rotation = rng.uniform(-1.0, 1.0, 3), Rotation.random(random_state=seed).as_quat()
     linear, angular = rng.uniform(-1.0, 1.0, (2, 3))
     obstacle.set_pose(translation, rotation, linear, angular)
     there = _distance.PlanarObstacle(SQUARE, plane, translation, rotation)
-    new = _distance.MinimumDistance([there], 0.01, band=0.1, features="elements")
+    new = _distance.MinimumDistance([there], 0.01, band=0.1)
     result, fresh = fields(moved, points), fields(new, points)
     arm = result["obstacle_point"] - translation
     assert result.pop("obstacle_velocity") == pytest.approx(linear + np.cross(angular, arm))
@@ -94,18 +92,17 @@ def test_a_pose_that_is_none_leaves_the_obstacle_where_it_was():
     with pytest.raises(ValueError, match="translation.*\nrotation"):
         obstacle.set_pose((np.nan, 0, 0), (0, 0, 0, 0))
     line = np.array([[(0.5, 1.5, 0.0), (0.5, 1.2, 0.0)]])
-    calculator = _distance.MinimumDistance([obstacle], 0.0, band=0.1, features="elements")
+    calculator = _distance.MinimumDistance([obstacle], 0.0, band=0.1)
     assert calculator.compute(line).minimum == pytest.approx([0.2], abs=1e-12)
 
 
 def test_far_from_the_origin():
     """Rounding is 1e-10 m there; a copy still has its features."""
     far = np.array((9e5, -8e5))
-    for features in ("local", "elements"):
-        calculator = _distance.MinimumDistance(
-            [_distance.PlanarObstacle(np.array(SQUARE) + far, "xy")], 0.0, 0.0, features
-        )
-        line = np.array([(0.3, 1.4), (0.6, 1.25), (0.9, 1.7)]) + far
-        result = calculator.compute(np.column_stack((line, np.zeros(3)))[None])
-        assert result.minimum == pytest.approx([0.25], abs=1e-9)
-        assert result.offsets.tolist() == [0, len(result.distance)] and len(result.distance) >= 1
+    calculator = _distance.MinimumDistance(
+        [_distance.PlanarObstacle(np.array(SQUARE) + far, "xy")], 0.0, 0.0
+    )
+    line = np.array([(0.3, 1.4), (0.6, 1.25), (0.9, 1.7)]) + far
+    result = calculator.compute(np.column_stack((line, np.zeros(3)))[None])
+    assert result.minimum == pytest.approx([0.25], abs=1e-9)
+    assert result.offsets.tolist() == [0, len(result.distance)] and len(result.distance) >= 1

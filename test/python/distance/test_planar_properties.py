@@ -9,7 +9,6 @@ from planar_reference import (
     COMB,
     HILLS,
     SQUARE,
-    arc_length,
     compute,
     in_plane,
     obstacle,
@@ -23,7 +22,6 @@ SAMPLES = 2001
 BAND = 0.2137  # m, off the grid of the lines, so that no distance is just at its end
 MANY = settings(max_examples=60, deadline=None)
 seeds = st.integers(0, 2**32 - 1)
-selections = st.sampled_from(["local", "elements"])
 
 
 def random_ring(rng):
@@ -44,21 +42,21 @@ def wanderer(rng, copies=None):
 
 
 @MANY
-@given(seed=seeds, features=selections)
-def test_minimum_against_dense_sampling(seed, features):
+@given(seed=seeds)
+def test_minimum_against_dense_sampling(seed):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), wanderer(rng)
-    result = compute(ring, line, radius=0.01, features=features)
+    result = compute(ring, line, radius=0.01)
     low, high = reference.bounds_of_minimum(ring, line, SAMPLES)
     assert low - 1e-9 <= result.minimum[0] + 0.01 <= high + 1e-9
 
 
 @MANY
-@given(seed=seeds, features=selections)
-def test_features_are_consistent(seed, features):
+@given(seed=seeds)
+def test_features_are_consistent(seed):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), wanderer(rng)
-    result = compute(ring, line, radius=0.01, band=BAND, features=features)
+    result = compute(ring, line, radius=0.01, band=BAND)
     points = in_plane(line)
     assert result.minimum[0] == result.distance[0]
     assert (np.diff(result.distance) >= 0.0).all()
@@ -77,36 +75,10 @@ def test_features_are_consistent(seed, features):
 
 @MANY
 @given(seed=seeds)
-def test_local_features_are_the_sampled_local_minima(seed):
-    rng = np.random.default_rng(seed)
-    ring, line = random_ring(rng), wanderer(rng)
-    result = compute(ring, line, band=BAND)
-    points, places = reference.sample(line, SAMPLES)
-    step = np.diff(places).max(initial=0.0)
-    values = reference.signed_distances(ring, points)
-    found = np.array([arc_length(line, result, row) for row in range(len(result.distance))])
-    for place, value in zip(found, result.distance):  # each is a local minimum
-        around = reference.at_arc_lengths(line, place + 1e-5 * np.linspace(-1.0, 1.0, 21))
-        assert reference.signed_distances(ring, around).min() >= value - 1e-9
-    middles, lowest = reference.sampled_local_minima(places, values)
-    for place, value in zip(middles, lowest):  # none is missed
-        if value < result.minimum[0] + BAND - step:
-            level = np.abs(result.distance - value) <= step + 1e-9
-            assert np.abs(found[level] - place).min(initial=np.inf) <= 2.5 * step + 1e-9
-    order = np.argsort(found)
-    for one, other in zip(order, order[1:]):  # none is there twice
-        between = np.linspace(found[one], found[other], 101)
-        between[[1, -2]] = found[one] + 1e-5, found[other] - 1e-5
-        highest = reference.signed_distances(ring, reference.at_arc_lengths(line, between)).max()
-        assert highest > max(result.distance[one], result.distance[other]) + 1e-14
-
-
-@MANY
-@given(seed=seeds)
 def test_segments_in_the_band_are_all_there(seed):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), wanderer(rng)
-    result = compute(ring, line, band=BAND, features="elements")
+    result = compute(ring, line, band=BAND)
     found = dict(zip(result.vertices[:, 0].tolist(), result.distance))
     assert len(found) == len(result.distance)
     for segment in range(len(line) - 1):
@@ -118,18 +90,18 @@ def test_segments_in_the_band_are_all_there(seed):
 
 
 @MANY
-@given(seed=seeds, features=selections, copies=st.integers(1, 13))
-def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies):
+@given(seed=seeds, copies=st.integers(1, 13))
+def test_copies_do_not_depend_on_each_other_or_on_history(seed, copies):
     rng = np.random.default_rng(seed)
     shifted = obstacle(random_ring(rng), translation=(0.4, 0.2, 0.0))
     obstacles = [obstacle(random_ring(rng)), shifted]
     points = in_plane(wanderer(rng, copies))
     points += np.append(rng.uniform(-2.0, 2.0, 2), 0.0)
-    calculator = MinimumDistance(obstacles, 0.01, BAND, features)
+    calculator = MinimumDistance(obstacles, 0.01, BAND)
     calculator.compute(3.0 * points[::-1])
     together = calculator.compute(points)
     for copy in range(copies):
-        fresh = MinimumDistance(obstacles, 0.01, BAND, features)
+        fresh = MinimumDistance(obstacles, 0.01, BAND)
         alone = fresh.compute(points[copy : copy + 1])
         assert together.minimum[copy] == pytest.approx(alone.minimum[0], abs=1e-9)
         first = together.of_copy(copy).start
@@ -141,11 +113,11 @@ def test_copies_do_not_depend_on_each_other_or_on_history(seed, features, copies
 
 
 @MANY
-@given(seed=seeds, features=selections, plane=st.sampled_from(["xy", "yz", "xz"]))
-def test_moving_everything_rigidly_changes_no_distance(seed, features, plane):
+@given(seed=seeds, plane=st.sampled_from(["xy", "yz", "xz"]))
+def test_moving_everything_rigidly_changes_no_distance(seed, plane):
     rng = np.random.default_rng(seed)
     ring, line = random_ring(rng), in_plane(wanderer(rng))
-    plain = MinimumDistance([obstacle(ring)], 0.01, BAND, features).compute(line[None])
+    plain = MinimumDistance([obstacle(ring)], 0.01, BAND).compute(line[None])
 
     rotation, translation = Rotation.random(random_state=seed), rng.uniform(-3.0, 3.0, 3)
     turned = obstacle(ring, plane, tuple(translation), tuple(rotation.as_quat()))
@@ -154,7 +126,7 @@ def test_moving_everything_rigidly_changes_no_distance(seed, features, plane):
     def moved(points):
         return rotation.apply(points[..., order]) + translation
 
-    result = MinimumDistance([turned], 0.01, BAND, features).compute(moved(line)[None])
+    result = MinimumDistance([turned], 0.01, BAND).compute(moved(line)[None])
     assert result.minimum == pytest.approx(plain.minimum, abs=1e-9)
     assert result.distance == pytest.approx(plain.distance, abs=1e-9)
     first = result.object_point[0] - result.obstacle_point[0]

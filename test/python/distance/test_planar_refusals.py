@@ -35,12 +35,11 @@ def test_all_mistakes_are_reported_at_once():
         obstacle(SQUARE, name="second", plane="up", translation=(np.nan, 0.0, 0.0)),
     ]
     with pytest.raises(ValueError) as caught:
-        MinimumDistance(spoilt, -1.0, band=np.nan, features="all")
+        MinimumDistance(spoilt, -1.0, band=np.nan)
     message = str(caught.value)
     for part in (
         "margin is -1.0",
         "band is nan",
-        "'local', 'elements'",
         "'first'",
         "plane is 'up'",
         "translation",

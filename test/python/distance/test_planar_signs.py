@@ -52,13 +52,12 @@ def test_no_change_of_sign_through_the_boundary_jumps():
     assert np.diff(values) == pytest.approx(np.diff(heights), abs=1e-12)
 
 
-@pytest.mark.parametrize("features", ["local", "elements"])
-def test_circle_and_its_centre(features):
+def test_circle_and_its_centre():
     """All edges are about equally far from the centre."""
     angles = np.linspace(0.0, 2.0 * np.pi, 101)[:-1]
     ring = np.column_stack((np.cos(angles), np.sin(angles)))
     apothem = np.cos(np.pi / 100.0)
-    result = compute(ring, [(-0.5, 0.0), (0.7, 0.0)], features=features)
+    result = compute(ring, [(-0.5, 0.0), (0.7, 0.0)])
     assert result.minimum == pytest.approx([-apothem], abs=1e-9)
     assert result.object_point[0, :2] == pytest.approx([0.0, 0.0], abs=1e-4)
 
@@ -69,8 +68,7 @@ def test_fine_boundary_inside():
     ring = np.vstack((np.column_stack((u, 0.05 * np.sin(7.0 * u))), [(1.0, -2.0), (-1.0, -2.0)]))
     line = np.column_stack((np.linspace(-0.6, 0.6, 15), np.full(15, -0.2)))
     low, high = reference.bounds_of_minimum(ring, line, 501)
-    for features in ("local", "elements"):
-        assert low <= compute(ring, line, features=features).minimum[0] <= high + 1e-9
+    assert low <= compute(ring, line).minimum[0] <= high + 1e-9
 
 
 def test_outside_agrees_with_shapely():
@@ -100,10 +98,9 @@ def test_outside_agrees_with_shapely():
         [(0.5, 0.5), (0.5, 0.5), (0.5, 0.7), (0.5, 0.7)],
     ],
 )
-@pytest.mark.parametrize("features", ["local", "elements"])
-def test_segments_of_length_zero(line, features):
+def test_segments_of_length_zero(line):
     """A rod along the plane's normal is a point in the plane."""
-    result = compute(SQUARE, line, radius=0.01, features=features)
+    result = compute(SQUARE, line, radius=0.01)
     _, expected = reference.bounds_of_minimum(SQUARE, line)  # at a vertex, which is a sample
     assert result.minimum == pytest.approx([expected - 0.01], abs=1e-9)
     for field in (result.distance, result.object_point, result.obstacle_point, result.weights):

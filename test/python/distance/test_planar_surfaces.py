@@ -16,11 +16,9 @@ seeds = st.integers(0, 2**32 - 1)
 ONE = np.array([[0, 1, 2]])
 
 
-def surface_distances(ring, points, triangles, features="elements", band=0.2):
+def surface_distances(ring, points, triangles, band=0.2):
     """Fields of Distances of one copy, points (P, 2) of the xy plane."""
-    calculator = _distance.MinimumDistance(
-        [_distance.PlanarObstacle(ring, "xy")], 0.0, band, features
-    )
+    calculator = _distance.MinimumDistance([_distance.PlanarObstacle(ring, "xy")], 0.0, band)
     lifted = np.column_stack((points, np.linspace(-1.0, 1.0, len(points))))
     return fields(calculator, lifted[None], triangles)
 
@@ -128,29 +126,6 @@ def test_every_triangle_in_the_band_has_its_feature(seed):
         if distance < minimum + 0.2 - 2e-5:
             assert rows.pop(corners) == pytest.approx(distance, abs=1e-5)
     assert all(expected[corners] < minimum + 0.2 + 2e-5 for corners in rows)
-
-
-@MANY
-@given(seed=seeds)
-def test_local_minima_of_a_surface(seed):
-    """They are among the features of the triangles; the distance falls from none of them."""
-    rng = np.random.default_rng(seed)
-    points, triangles = grid(rng)
-    points += np.array((0.0, rng.uniform(0.6, 1.5)))
-    found = surface_distances(HILLS, points, triangles, "local", band=0.3)
-    consistent(HILLS, found, points)
-    assert found["distance"][0] == found["minimum"][0]
-    for row, distance in enumerate(found["distance"]):
-        place = found["object_point"][row, :2]
-        used = set(found["vertices"][row][found["weights"][row] > 1e-9])
-        for corners in points[[t for t in triangles.tolist() if used <= set(t)]]:
-            weights = rng.dirichlet((1.0, 1.0, 1.0), 50)
-            near = place + 1e-6 * (weights @ corners - place)
-            assert reference.signed_distances(HILLS, near).min() >= distance - 1e-12
-    apart = shapely.points(found["object_point"][:, :2])
-    if len(apart) > 1:
-        pairs = np.triu_indices(len(apart), 1)
-        assert shapely.distance(apart[pairs[0]], apart[pairs[1]]).min() > 1e-5
 
 
 def test_a_flat_cloth_level_with_an_edge_is_represented_by_the_middles_of_its_triangles():

@@ -30,7 +30,7 @@ def obstacles(mesh_file):
 
 
 def both(obstacles, points, triangles, band=0.4):
-    arguments = (obstacles, 0.003, band, "elements", triangles)
+    arguments = (obstacles, 0.003, band, triangles)
     return [
         backend(*arguments).compute(points)
         for backend in (MinimumDistance, ReferenceMinimumDistance)
@@ -86,8 +86,8 @@ def test_settings_and_shapes_are_refused_by_both(tmp_path):
     ]
     for backend in (MinimumDistance, ReferenceMinimumDistance):
         with pytest.raises(ValueError) as caught:
-            backend(spoilt, -1.0, features="all", triangles=[[0, 1]])
-        for part in ("margin is -1.0", "'local', 'elements'", "triangles must be", "'flat': scale"):
+            backend(spoilt, -1.0, triangles=[[0, 1]])
+        for part in ("margin is -1.0", "triangles must be", "'flat': scale"):
             assert part in str(caught.value)
         with pytest.raises(ValueError, match="'gone': .*gone.obj cannot be read"):
             backend(spoilt[:1], 0.0)
