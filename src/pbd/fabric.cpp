@@ -11,26 +11,16 @@
 #include "fabric_mesh.h"
 #include "fabric_response.h"
 #include "fabric_weights.h"
+#include "lane_groups.h"
 #include "reference_motion.h"
 #include "surface_distance.h"
-#include "thread_pool.h"
 
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-// Substeps that the threads do before they wait for each other.
-constexpr int kSubstepsAtOnce = 16;
-
 //! 1/s. Rest lengths adapt slowly, for they must not feed energy into vibrations faster than damping takes it away.
 double adaptationRate(double damping) { return std::min(1.0, 0.1 * damping); }
-
-FabricParameters checked(const FabricParameters& parameters) {
-  ParameterCheck check;
-  parameters.check(check);
-  check.throwIfAny();
-  return parameters;
-}
 
 //! [N] kg: a third of the mass of each triangle goes to each of its corners.
 std::vector<double> lumpedMasses(const FabricParameters& p) {
@@ -51,13 +41,13 @@ struct Fabric::State {
         distances(p.vertices, p.triangles, edges),
         masses(lumpedMasses(p)),
         constraints(p.vertices, edges),
+        groups(FabricLanes(static_cast<int>(p.vertices.size()), static_cast<int>(edges.size()))),
         decay(p.vertices.size()),
         carried(3 * p.vertices.size()),
         pool(std::make_shared<ThreadPool>(p.threads)),
         motions(p.vertices.size()) {
     selectedFabricKernel();  // the first time, that reads the environment
     recorded.emplace_back(constraints.recordedSize());
-    groups.emplace_back(static_cast<int>(p.vertices.size()), static_cast<int>(edges.size()));
   }
 
   std::vector<MeshEdge> edges;
@@ -65,21 +55,15 @@ struct Fabric::State {
   std::vector<double> masses, inverse_mass;
   FabricConstraints constraints;
   double constraints_for = 0.0;  // s, substep for which the constraints' gains are up to date; 0: none
-  std::vector<FabricLanes> groups;
+  LaneGroups<FabricLanes, HeldVertex> groups;
   Eigen::MatrixXd weights;                              // [N x holds] how each vertex goes with the holds
   std::vector<std::vector<double>> distances_of_holds;  // [holds x N] m, unless straight
   std::vector<double> decay, carried;
   std::vector<double> shape;           // [N x 3] m, for the response
-  std::vector<HeldVertex> held;        // [kSubstepsAtOnce x groups x holds]
-  int pending = 0;                     // substeps that are noted in it and still to be done
   std::vector<AlignedArray> recorded;  // [groups] of the last substep
   FabricInput input{};
   std::shared_ptr<ThreadPool> pool;  // shared with clones
   std::vector<PointMotion> motions;  // [N] scratch
-
-  HeldVertex* heldIn(int substep, std::size_t group, std::size_t holds) {
-    return held.data() + (substep * groups.size() + group) * holds;
-  }
 };
 
 Fabric::Fabric(const FabricParameters& parameters) : parameters_(checked(parameters)), state_(new State(parameters_)) {
@@ -141,7 +125,7 @@ double Fabric::stretch() const {
 
 Pose Fabric::pose(int particle) const {
   requireParticle(particle);
-  return {read3(state_->groups[0].position, particle, 0), Quaternion::Identity()};
+  return {state_->groups.read(&FabricLanes::position, particle), Quaternion::Identity()};
 }
 
 void Fabric::holdsChanged() {
@@ -164,36 +148,20 @@ void Fabric::holdsChanged() {
   }
   s.constraints_for = 0.0;
   response_.reset();
-  resizeHeld();
+  s.groups.resize(*this);
 }
 
 void Fabric::resizeCopies() {
-  const std::size_t groups = (copyCount() + kLanes - 1) / kLanes;
-  while (state_->groups.size() > groups) {
-    state_->groups.pop_back();
-  }
-  while (state_->groups.size() < groups) {
-    state_->groups.push_back(state_->groups.front());
-  }
-  state_->recorded.resize(groups, state_->recorded.front());
-  resizeHeld();
+  state_->groups.resize(*this);
+  state_->recorded.resize(state_->groups.size(), state_->recorded.front());
 }
 
-void Fabric::resizeHeld() { state_->held.resize(kSubstepsAtOnce * state_->groups.size() * holds().size()); }
-
-void Fabric::assignCopy(int to, int from) {
-  FabricLanes& target = state_->groups[to / kLanes];
-  const FabricLanes& source = state_->groups[from / kLanes];
-  for (AlignedArray FabricLanes::*array :
-       {&FabricLanes::position, &FabricLanes::previous_position, &FabricLanes::velocity, &FabricLanes::rest_length}) {
-    copyLane(target.*array, to % kLanes, source.*array, from % kLanes);
-  }
-}
+void Fabric::assignCopy(int to, int from) { state_->groups.assign(to, from); }
 
 void Fabric::layOut() {
   State& s = *state_;
   const std::vector<Vector3> vertices = layOutFabric(parameters_, s.edges, holds(), s.weights);
-  for (FabricLanes& lanes : s.groups) {
+  for (FabricLanes& lanes : s.groups.all()) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       for (int lane = 0; lane < kLanes; ++lane) {
         write3(lanes.position, static_cast<int>(i), lane, vertices[i]);
@@ -208,11 +176,7 @@ void Fabric::layOut() {
   stop();
 }
 
-void Fabric::stop() {
-  for (FabricLanes& lanes : state_->groups) {
-    std::fill(lanes.velocity.begin(), lanes.velocity.end(), 0.0);
-  }
-}
+void Fabric::stop() { state_->groups.fill(&FabricLanes::velocity, 0.0); }
 
 void Fabric::beginStep(double h) {
   State& s = *state_;
@@ -252,7 +216,7 @@ void Fabric::updateCarriedMotion() {
   State& s = *state_;
   if (holds().empty()) {
     for (int i = 0; i < particleCount(); ++i) {
-      s.motions[i] = {s.masses[i], read3(s.groups[0].position, i, 0), read3(s.groups[0].velocity, i, 0)};
+      s.motions[i] = {s.masses[i], s.groups.read(&FabricLanes::position, i), s.groups.read(&FabricLanes::velocity, i)};
     }
     rigidMotion(s.motions, s.carried.data());
     return;
@@ -266,43 +230,24 @@ void Fabric::updateCarriedMotion() {
 }
 
 void Fabric::substep() {
-  State& s = *state_;
-  for (std::size_t group = 0; group < s.groups.size(); ++group) {
-    HeldVertex* to = s.heldIn(s.pending, group, holds().size());
-    for (const HeldPoint& held : holds()) {
-      to->vertex = held.particle;
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int copy = static_cast<int>(group) * kLanes + lane;
-        const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
-        for (int axis = 0; axis < 3; ++axis) {
-          to->position[axis * kLanes + lane] = position[axis];
-        }
-      }
-      ++to;
-    }
-  }
-  if (++s.pending == kSubstepsAtOnce) {
+  if (state_->groups.note(*this, [](const HeldPoint& held, HeldVertex* to) { to->vertex = held.particle; })) {
     endStep();
   }
 }
 
 void Fabric::endStep() {
   State& s = *state_;
-  if (s.pending == 0) {
-    return;
-  }
-  s.pool->run(static_cast<int>(s.groups.size()), [&](int, int group) {
+  const int substeps = s.groups.pending();
+  s.groups.advance(*this, *s.pool, [&](int, int group, int copies) {
     FabricInput input = s.input;
-    input.held = s.heldIn(0, group, holds().size());
+    input.held = s.groups.held(0, group, *this);
     input.recorded = s.recorded[group].data();
-    input.adaptation = 1.0 - std::exp(-s.pending * s.input.h * adaptationRate(parameters_.damping));
-    const int copies = std::min(copyCount() - group * kLanes, kLanes);
-    selectedFabricKernel().advance(input, copies, s.pending, s.groups[group]);
+    input.adaptation = 1.0 - std::exp(-substeps * s.input.h * adaptationRate(parameters_.damping));
+    selectedFabricKernel().advance(input, copies, substeps, s.groups[group]);
   });
   for (std::size_t i = 0; i < s.carried.size(); ++i) {
-    s.carried[i] += s.pending * s.input.carried_change[i % 3];
+    s.carried[i] += substeps * s.input.carried_change[i % 3];
   }
-  s.pending = 0;
 }
 
 Wrench Fabric::wrench(int particle) const {
@@ -335,18 +280,14 @@ void Fabric::points(double* to) const {
   }
 }
 
-void Fabric::positions(int copy, double* to) const {
-  unpack(state_->groups[copy / kLanes].position, copy % kLanes, to);
-}
+void Fabric::positions(int copy, double* to) const { state_->groups.unpack(&FabricLanes::position, copy, to); }
 
-void Fabric::velocities(int copy, double* to) const {
-  unpack(state_->groups[copy / kLanes].velocity, copy % kLanes, to);
-}
+void Fabric::velocities(int copy, double* to) const { state_->groups.unpack(&FabricLanes::velocity, copy, to); }
 
 bool Fabric::orientations(int, double*) const { return false; }
 
 int Fabric::firstNonFinite(int copy) const {
-  const FabricLanes& lanes = state_->groups[copy / kLanes];
+  const FabricLanes& lanes = state_->groups.of(copy);
   if (lanes.finite[copy % kLanes] == 0.0) {
     return -1;
   }
@@ -362,7 +303,7 @@ double Fabric::highestSpeed() const {
   double highest = 0.0;
   for (int copy = 0; copy < copyCount(); ++copy) {
     for (int i = 0; i < particleCount(); ++i) {
-      highest = std::max(highest, read3(state_->groups[copy / kLanes].velocity, i, copy % kLanes).norm());
+      highest = std::max(highest, state_->groups.read(&FabricLanes::velocity, i, copy).norm());
     }
   }
   return highest;

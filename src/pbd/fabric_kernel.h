@@ -21,6 +21,9 @@ struct FabricLanes {
   AlignedArray velocity;           // m/s
   AlignedArray rest_length;        // [edges x lane] m, of the hinges and then the boundary edges, as adapted
   AlignedArray finite;             // [lane] 0 where the copy's state was finite after the last call, else not a number
+
+  static constexpr AlignedArray FabricLanes::*kArrays[] = {&FabricLanes::position, &FabricLanes::previous_position,
+                                                           &FabricLanes::velocity, &FabricLanes::rest_length};
 };
 
 //! An edge as a spring. An end moves by its gain times the edge's excess of length.

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "deformable_manipulation/pbd/rod_equilibrium.h"
+#include "lane_groups.h"
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
-#include "thread_pool.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -20,9 +20,6 @@ namespace {
 // micrometres. The other one, in all directions, is far below what can be seen.
 constexpr double kAxialCompliance = 1e-5;
 constexpr double kFloorCompliance = 1e-8;
-
-// Substeps that the threads do before they wait for each other.
-constexpr int kSubstepsAtOnce = 16;
 
 // Of the inertia of a free segment: torques do not turn a clamped one.
 constexpr double kClampedInertia = 1e30;
@@ -47,15 +44,15 @@ Vector3 tangent(const Quaternion& orientation) { return orientation * Vector3::U
 }  // namespace
 
 struct Rod::State {
-  std::vector<RodLanes> groups;
+  explicit State(int segments) : groups(RodLanes(segments)) {}
+
+  LaneGroups<RodLanes, HeldSegment> groups;
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
   std::vector<double> transverse_inertia, inertia_excess;
   std::vector<unsigned char> joint_active;
   std::vector<double> linear_rate, angular_rate;
   std::vector<double> reference_velocity, reference_angular_velocity;
-  std::vector<HeldSegment> held;  // [kSubstepsAtOnce x groups x holds]
-  int pending = 0;                // substeps that are noted in it and still to be done
-  AlignedArray workspace;         // [threads x rodWorkspaceSize()]
+  AlignedArray workspace;  // [threads x rodWorkspaceSize()]
   RodSubstepInput input;
   RodSubstep solve;
   std::shared_ptr<ThreadPool> pool;    // shared with clones
@@ -75,19 +72,11 @@ struct Rod::State {
     input.reference_velocity = reference_velocity.data();
     input.reference_angular_velocity = reference_angular_velocity.data();
   }
-
-  HeldSegment* heldIn(int substep, std::size_t group, std::size_t holds) {
-    return held.data() + (substep * groups.size() + group) * holds;
-  }
 };
 
-Rod::Rod(const RodParameters& parameters) : parameters_(parameters), state_(new State) {
-  ParameterCheck check;
-  parameters_.check(check);
-  check.throwIfAny();
+Rod::Rod(const RodParameters& parameters) : parameters_(checked(parameters)), state_(new State(parameters_.segments)) {
   const int n = parameters_.segments;
   State& s = *state_;
-  s.groups.emplace_back(n);
   s.linear_rate.resize(n);
   s.angular_rate.resize(n);
   s.reference_velocity.resize(3 * n);
@@ -137,7 +126,7 @@ double Rod::freeLength(int particle, int other) const {
 
 Pose Rod::pose(int particle) const {
   requireParticle(particle);
-  return {read3(state_->groups[0].position, particle, 0), read4(state_->groups[0].orientation, particle, 0)};
+  return {state_->groups.read(&RodLanes::position, particle), read4(state_->groups[0].orientation, particle, 0)};
 }
 
 void Rod::holdsChanged() {
@@ -149,7 +138,7 @@ void Rod::holdsChanged() {
   s.transverse_inertia.assign(n, parameters_.transverseInertia());
   s.inertia_excess.assign(n, parameters_.axialInertia() - parameters_.transverseInertia());
   s.joint_active.assign(n - 1, 1);
-  resizeHeld();
+  s.groups.resize(*this);
   for (const HeldPoint& held : holds()) {
     s.inverse_mass[held.particle] = 0.0;
     if (held.type == Hold::CLAMPED) {
@@ -164,42 +153,21 @@ void Rod::holdsChanged() {
   }
 }
 
-void Rod::resizeCopies() {
-  const std::size_t groups = (copyCount() + kLanes - 1) / kLanes;
-  while (state_->groups.size() > groups) {
-    state_->groups.pop_back();
-  }
-  while (state_->groups.size() < groups) {
-    state_->groups.push_back(state_->groups.front());
-  }
-  resizeHeld();
-}
+void Rod::resizeCopies() { state_->groups.resize(*this); }
 
-void Rod::resizeHeld() { state_->held.resize(kSubstepsAtOnce * state_->groups.size() * holds().size()); }
-
-void Rod::assignCopy(int to, int from) {
-  RodLanes& target = state_->groups[to / kLanes];
-  const RodLanes& source = state_->groups[from / kLanes];
-  for (AlignedArray RodLanes::*array :
-       {&RodLanes::position, &RodLanes::previous_position, &RodLanes::velocity, &RodLanes::orientation,
-        &RodLanes::previous_orientation, &RodLanes::angular_velocity, &RodLanes::multiplier}) {
-    copyLane(target.*array, to % kLanes, source.*array, from % kLanes);
-  }
-}
+void Rod::assignCopy(int to, int from) { state_->groups.assign(to, from); }
 
 void Rod::layOut() {
   const std::vector<Pose> segments = layOutRod(parameters_, holds());
   for (std::size_t copy = 0; copy < state_->groups.size() * kLanes; ++copy) {
     placeCopy(static_cast<int>(copy), segments);
   }
-  for (RodLanes& lanes : state_->groups) {
-    std::fill(lanes.multiplier.begin(), lanes.multiplier.end(), 0.0);
-  }
+  state_->groups.fill(&RodLanes::multiplier, 0.0);
   stop();
 }
 
 void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
-  RodLanes& lanes = state_->groups[copy / kLanes];
+  RodLanes& lanes = state_->groups.of(copy);
   const int lane = copy % kLanes;
   for (int i = 0; i < parameters_.segments; ++i) {
     write3(lanes.position, i, lane, segments[i].position);
@@ -210,10 +178,8 @@ void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
 }
 
 void Rod::stop() {
-  for (RodLanes& lanes : state_->groups) {
-    std::fill(lanes.velocity.begin(), lanes.velocity.end(), 0.0);
-    std::fill(lanes.angular_velocity.begin(), lanes.angular_velocity.end(), 0.0);
-  }
+  state_->groups.fill(&RodLanes::velocity, 0.0);
+  state_->groups.fill(&RodLanes::angular_velocity, 0.0);
 }
 
 void Rod::beginStep(double h) {
@@ -283,50 +249,30 @@ void Rod::letReferenceFall() {
 }
 
 void Rod::substep() {
-  State& s = *state_;
-  for (std::size_t group = 0; group < s.groups.size(); ++group) {
-    noteHeld(static_cast<int>(group) * kLanes, s.heldIn(s.pending, group, holds().size()));
-  }
-  if (++s.pending == kSubstepsAtOnce) {
-    endStep();
-  }
-}
-
-void Rod::noteHeld(int first_copy, HeldSegment* to) const {
-  for (const HeldPoint& held : holds()) {
+  const auto describe = [](const HeldPoint& held, HeldSegment* to) {
     to->segment = held.particle;
     to->clamped = held.type == Hold::CLAMPED;
     std::copy(held.pose.orientation.coeffs().data(), held.pose.orientation.coeffs().data() + 4, to->orientation);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int copy = first_copy + lane;
-      const Vector3 position = heldPosition(held, copy < copyCount() ? copy : 0);
-      for (int axis = 0; axis < 3; ++axis) {
-        to->position[axis * kLanes + lane] = position[axis];
-      }
-    }
-    ++to;
+  };
+  if (state_->groups.note(*this, describe)) {
+    endStep();
   }
 }
 
 void Rod::endStep() {
   State& s = *state_;
-  if (s.pending == 0) {
-    return;
-  }
-  s.pool->run(static_cast<int>(s.groups.size()), [&](int worker, int group) {
+  s.groups.advance(*this, *s.pool, [&](int worker, int group, int copies) {
     RodSubstepInput input = s.input;
     input.workspace = s.workspace.data() + worker * (s.workspace.size() / parameters_.threads);
     input.held_count = static_cast<int>(holds().size());
-    const int copies = std::min(copyCount() - group * kLanes, kLanes);
-    for (int i = 0; i < s.pending; ++i) {
-      input.held = s.heldIn(i, group, holds().size());
+    for (int i = 0; i < s.groups.pending(); ++i) {
+      input.held = s.groups.held(i, group, *this);
       if (holds().empty()) {
         letReferenceFall();
       }
       s.solve(input, copies, s.groups[group]);
     }
   });
-  s.pending = 0;
 }
 
 double Rod::stretch() const {
@@ -376,7 +322,7 @@ void Rod::points(double* to) const {
   const int n = parameters_.segments;
   const double half = 0.5 * parameters_.segmentLength();
   for (int copy = 0; copy < copyCount(); ++copy) {
-    const RodLanes& lanes = state_->groups[copy / kLanes];
+    const RodLanes& lanes = state_->groups.of(copy);
     const int lane = copy % kLanes;
     Vector3 before = Vector3::Zero();
     for (int i = 0; i <= n; ++i, to += 3) {
@@ -392,17 +338,17 @@ void Rod::points(double* to) const {
   }
 }
 
-void Rod::positions(int copy, double* to) const { unpack(state_->groups[copy / kLanes].position, copy % kLanes, to); }
+void Rod::positions(int copy, double* to) const { state_->groups.unpack(&RodLanes::position, copy, to); }
 
-void Rod::velocities(int copy, double* to) const { unpack(state_->groups[copy / kLanes].velocity, copy % kLanes, to); }
+void Rod::velocities(int copy, double* to) const { state_->groups.unpack(&RodLanes::velocity, copy, to); }
 
 bool Rod::orientations(int copy, double* to) const {
-  unpack(state_->groups[copy / kLanes].orientation, copy % kLanes, to);
+  state_->groups.unpack(&RodLanes::orientation, copy, to);
   return true;
 }
 
 int Rod::firstNonFinite(int copy) const {
-  const RodLanes& lanes = state_->groups[copy / kLanes];
+  const RodLanes& lanes = state_->groups.of(copy);
   const int lane = copy % kLanes;
   for (int i = 0; i < parameters_.segments; ++i) {
     const double sum = read3(lanes.position, i, lane).sum() + read3(lanes.velocity, i, lane).sum() +
@@ -418,9 +364,9 @@ double Rod::highestSpeed() const {
   double highest = 0.0;
   for (int copy = 0; copy < copyCount(); ++copy) {
     for (int i = 0; i < parameters_.segments; ++i) {
-      const RodLanes& lanes = state_->groups[copy / kLanes];
-      const double turning = parameters_.segmentLength() * read3(lanes.angular_velocity, i, copy % kLanes).norm();
-      highest = std::max({highest, read3(lanes.velocity, i, copy % kLanes).norm(), turning});
+      const double turning =
+          parameters_.segmentLength() * state_->groups.read(&RodLanes::angular_velocity, i, copy).norm();
+      highest = std::max({highest, state_->groups.read(&RodLanes::velocity, i, copy).norm(), turning});
     }
   }
   return highest;

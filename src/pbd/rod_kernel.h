@@ -19,6 +19,11 @@ struct RodLanes {
   AlignedArray previous_orientation;  // [N x 4]
   AlignedArray angular_velocity;      // [N x 3] rad/s, fixed frame
   AlignedArray multiplier;            // [(N - 1) x 6] force and torque of the second segment on the first, times h^2
+
+  static constexpr AlignedArray RodLanes::*kArrays[] = {
+      &RodLanes::position,    &RodLanes::previous_position,    &RodLanes::velocity,
+      &RodLanes::orientation, &RodLanes::previous_orientation, &RodLanes::angular_velocity,
+      &RodLanes::multiplier};
 };
 
 //! A held segment during one substep.

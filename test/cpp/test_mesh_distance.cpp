@@ -79,7 +79,7 @@ std::shared_ptr<MeshObstacle> ball(int rings, const Vector3& at = Vector3::Zero(
 TEST(MeshDistance, ofAllCopiesAboveAndThroughABall) {
   const auto obstacle = ball(40);
   EXPECT_EQ(obstacle->warnings(), std::vector<std::string>{"160 triangles without area are dropped"});
-  MinimumDistance distance({obstacle}, 0.001, 0.1, Selection::ELEMENTS);
+  MinimumDistance distance({obstacle}, 0.001, 0.1);
   const Fabric above(13, 1.2), through(13, 0.3);
   for (int c = 0; c < 13; ++c) {
     EXPECT_NEAR(distance.compute(above.view(13)).minimum[c], 0.199 + 0.01 * c, 1e-9);
@@ -90,7 +90,7 @@ TEST(MeshDistance, ofAllCopiesAboveAndThroughABall) {
 
 TEST(MeshDistance, followsThePose) {
   const auto obstacle = ball(20);
-  MinimumDistance distance({obstacle}, 0.0, 0.0, Selection::ELEMENTS);
+  MinimumDistance distance({obstacle}, 0.0, 0.0);
   const Fabric fabric(1, 1.5);
   for (double height : {0.0, 0.1, -4.0, 0.3}) {
     obstacle->setPose(Vector3(0.0, 0.0, height), pbd::Quaternion::Identity(),
@@ -103,23 +103,21 @@ TEST(MeshDistance, followsThePose) {
 }
 
 TEST(MeshDistance, allocatesNothingOnceWarm) {
-  for (Selection selection : {Selection::LOCAL, Selection::ELEMENTS}) {
-    const auto obstacle = ball(40);
-    MinimumDistance distance({obstacle}, 0.001, 0.1, selection);
-    const Fabric above(13, 1.1), through(13, 0.2), lower(13, 0.15);
-    for (const Fabric* fabric : {&above, &through, &lower, &above, &through, &lower}) {
-      distance.compute(fabric->view(13));
-    }
-    for (const Fabric* fabric : {&through, &above, &lower}) {
-      const long before = test::allocations();
-      distance.compute(fabric->view(13));
-      EXPECT_EQ(test::allocations() - before, 0);
-    }
+  const auto obstacle = ball(40);
+  MinimumDistance distance({obstacle}, 0.001, 0.1);
+  const Fabric above(13, 1.1), through(13, 0.2), lower(13, 0.15);
+  for (const Fabric* fabric : {&above, &through, &lower, &above, &through, &lower}) {
+    distance.compute(fabric->view(13));
+  }
+  for (const Fabric* fabric : {&through, &above, &lower}) {
+    const long before = test::allocations();
+    distance.compute(fabric->view(13));
+    EXPECT_EQ(test::allocations() - before, 0);
   }
 }
 
-TEST(FeatureTracker, numbersElementsByThemselves) {
-  MinimumDistance distance({ball(10), ball(10, Vector3(0.0, 0.0, -0.01))}, 0.0, 0.5, Selection::ELEMENTS);
+TEST(MeshDistance, numbersElementsByThemselves) {
+  MinimumDistance distance({ball(10), ball(10, Vector3(0.0, 0.0, -0.01))}, 0.0, 0.5);
   const Fabric fabric(2, 1.2);
   const Distances first = distance.compute(fabric.view(2));
   std::set<std::int64_t> numbers;
@@ -133,7 +131,7 @@ TEST(FeatureTracker, numbersElementsByThemselves) {
 }
 
 TEST(Surface, withoutTrianglesIsRefused) {
-  MinimumDistance distance({ball(10)}, 0.0, 0.0, Selection::ELEMENTS);
+  MinimumDistance distance({ball(10)}, 0.0, 0.0);
   const Fabric fabric(1, 1.2);
   ObjectView view = fabric.view(1);
   view.triangle_count = 0;

@@ -65,8 +65,8 @@ ObjectView view(const std::vector<double>& points, int copies) {
   return object;
 }
 
-MinimumDistance calculator(const Ring& ring, double band = 0.1, Selection selection = Selection::ELEMENTS) {
-  return MinimumDistance({std::make_shared<PlanarObstacle>(ring, "xy")}, 0.0, band, selection);
+MinimumDistance calculator(const Ring& ring, double band = 0.1) {
+  return MinimumDistance({std::make_shared<PlanarObstacle>(ring, "xy")}, 0.0, band);
 }
 
 TEST(PlanarObstacle, minimumIsThatOfAllPoints) {
@@ -95,8 +95,7 @@ TEST(PlanarObstacle, witnessesAndNormalsBelongTogether) {
   for (int scene = 0; scene < 60; ++scene) {
     const Ring ring = star(random, 20);
     const std::vector<double> line = wanderer(random, 10, 0.2);
-    const Selection selection = scene % 2 == 0 ? Selection::ELEMENTS : Selection::LOCAL;
-    MinimumDistance distance = calculator(ring, 0.3, selection);
+    MinimumDistance distance = calculator(ring, 0.3);
     for (const Feature& feature : distance.compute(view(line, 1)).features) {
       const double expected = signedDistance(ring, feature.object_point.x(), feature.object_point.y());
       EXPECT_NEAR(feature.distance, expected, 1e-12);
@@ -110,20 +109,18 @@ TEST(PlanarObstacle, witnessesAndNormalsBelongTogether) {
 TEST(PlanarObstacle, resultsDoNotDependOnCallsBefore) {
   std::mt19937 random(3);
   const Ring ring = star(random, 200);
-  for (const Selection selection : {Selection::ELEMENTS, Selection::LOCAL}) {
-    MinimumDistance used = calculator(ring, 0.2, selection);
-    for (int call = 0; call < 20; ++call) {
-      std::vector<double> lines = wanderer(random, 12, 0.15);
-      const std::vector<double> second = wanderer(random, 12, 0.15);
-      lines.insert(lines.end(), second.begin(), second.end());
-      MinimumDistance fresh = calculator(ring, 0.2, selection);
-      const Distances &a = used.compute(view(lines, 2)), &b = fresh.compute(view(lines, 2));
-      ASSERT_EQ(a.minimum, b.minimum);
-      ASSERT_EQ(a.offsets, b.offsets);
-      for (std::size_t k = 0; k < a.features.size(); ++k) {
-        ASSERT_EQ(a.features[k].object_point, b.features[k].object_point);
-        ASSERT_EQ(a.features[k].normal, b.features[k].normal);
-      }
+  MinimumDistance used = calculator(ring, 0.2);
+  for (int call = 0; call < 20; ++call) {
+    std::vector<double> lines = wanderer(random, 12, 0.15);
+    const std::vector<double> second = wanderer(random, 12, 0.15);
+    lines.insert(lines.end(), second.begin(), second.end());
+    MinimumDistance fresh = calculator(ring, 0.2);
+    const Distances &a = used.compute(view(lines, 2)), &b = fresh.compute(view(lines, 2));
+    ASSERT_EQ(a.minimum, b.minimum);
+    ASSERT_EQ(a.offsets, b.offsets);
+    for (std::size_t k = 0; k < a.features.size(); ++k) {
+      ASSERT_EQ(a.features[k].object_point, b.features[k].object_point);
+      ASSERT_EQ(a.features[k].normal, b.features[k].normal);
     }
   }
 }
@@ -153,7 +150,7 @@ TEST(PlanarObstacle, surfaceAroundTheObstacleIsAsDeepAsItsCentre) {
 
 TEST(PlanarObstacle, velocityIsThatOfTheMovingObstacleAtItsPoint) {
   auto obstacle = std::make_shared<PlanarObstacle>(kSquare, "xy");
-  MinimumDistance distance({obstacle}, 0.0, 0.1, Selection::ELEMENTS);
+  MinimumDistance distance({obstacle}, 0.0, 0.1);
   const Vector3 translation(1.0, 0.0, 0.0);
   obstacle->setPose(translation, pbd::Quaternion::Identity(), {Vector3(0.1, 0.2, 0.3), Vector3(0.0, 0.0, 2.0)});
   const std::vector<double> line = {1.5, 1.3, 0.0, 1.5, 1.6, 0.0};

@@ -55,5 +55,14 @@ class ParameterCheck {
   std::vector<Problem> problems_;
 };
 
+//! Parameters that pass their own check. @throw ParameterError
+template <typename Parameters>
+const Parameters& checked(const Parameters& parameters) {
+  ParameterCheck check;
+  parameters.check(check);
+  check.throwIfAny();
+  return parameters;
+}
+
 }  // namespace pbd
 }  // namespace deformable_manipulation

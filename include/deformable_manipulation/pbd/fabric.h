@@ -69,7 +69,6 @@ class Fabric final : public Body {
   struct State;
   Fabric(const Fabric& other);
 
-  void resizeHeld();
   void updateCarriedMotion();
 
   FabricParameters parameters_;

@@ -8,8 +8,6 @@
 namespace deformable_manipulation {
 namespace pbd {
 
-struct HeldSegment;
-
 //! A rope or rod: rigid segments, joined by zero-stretch bending-twisting constraints (Deul et al.
 //! 2018), with small substeps (Macklin et al. 2019); Algorithm 1 of the paper.
 //!
@@ -58,8 +56,6 @@ class Rod final : public Body {
   struct State;
   Rod(const Rod& other);
 
-  void resizeHeld();
-  void noteHeld(int first_copy, HeldSegment* to) const;
   void updateReferenceMotion();
   void dampTowardsReference(double h);
   void letReferenceFall();
