@@ -9,7 +9,13 @@ typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
 //! Four numbers at once.
 struct Four {
   double operator[](int k) const { return k < 2 ? low[k] : high[k - 2]; }
-  void set(int k, double value) { (k < 2 ? low : high)[k % 2] = value; }
+  void set(int k, double value) {
+    if (k < 2) {
+      low[k] = value;
+    } else {
+      high[k - 2] = value;
+    }
+  }
 
   Pair low = {}, high = {};
 };

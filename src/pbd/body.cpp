@@ -149,29 +149,6 @@ void Body::step(double time_step, int substeps) {
   checkFinite();
 }
 
-bool Body::settle(const SettleOptions& options) {
-  requireStep(options.time_step, options.substeps);
-  ParameterCheck check;
-  check.notNegative("speed_tolerance", options.speed_tolerance, "[m/s]");
-  check.notNegative("time_limit", options.time_limit, "[s]");
-  check.throwIfAny();
-  for (HeldPoint& held : holds_) {
-    held.twist = Twist();
-  }
-  const int steps = static_cast<int>(std::ceil(options.time_limit / options.time_step));
-  for (int i = 0; i < steps; ++i) {
-    step(options.time_step, options.substeps);
-    const bool arrived =
-        std::all_of(copies_.begin(), copies_.end(), [](const PerturbedCopy& copy) { return copy.ready(); });
-    if (arrived && highestSpeed() < options.speed_tolerance) {
-      stop();
-      return true;
-    }
-  }
-  stop();
-  return false;
-}
-
 Vector3 Body::heldPosition(const HeldPoint& held, int copy) const {
   if (copy > 0 && copies_[copy - 1].particle == held.particle) {
     return held.pose.position + copies_[copy - 1].present;
@@ -206,12 +183,17 @@ void Body::retargetCopies() {
         }
       }
     }
-    if (copy.present.dot(copy.target) < 0.0) {  // turned round: begin again from the object itself
-      copy.present.setZero();
-      copy.resting = 0.0;
-      assignCopy(static_cast<int>(i) + 1, 0);
+    if (copy.present.dot(copy.target) < 0.0) {  // turned round
+      restartCopy(static_cast<int>(i) + 1);
     }
   }
+}
+
+//! Begins again from the object itself.
+void Body::restartCopy(int copy) {
+  copies_[copy - 1].present.setZero();
+  copies_[copy - 1].resting = 0.0;
+  assignCopy(copy, 0);
 }
 
 void Body::advanceCopies(double h) {

@@ -178,6 +178,10 @@ void Fabric::layOut() {
 
 void Fabric::stop() { state_->groups.fill(&FabricLanes::velocity, 0.0); }
 
+void Fabric::displace(int particle, const Vector3& by) {
+  state_->groups.displace(&FabricLanes::position, particle, by);
+}
+
 void Fabric::beginStep(double h) {
   State& s = *state_;
   if (s.constraints_for != h) {

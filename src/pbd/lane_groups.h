@@ -37,6 +37,11 @@ class LaneGroups {
   //! Three numbers of an item of a copy.
   Vector3 read(Array array, int item, int copy = 0) const { return read3(of(copy).*array, item, copy % kLanes); }
 
+  //! Adds to three numbers of an item of copy 0.
+  void displace(Array array, int item, const Vector3& by) {
+    write3(of(0).*array, item, 0, read3(of(0).*array, item, 0) + by);
+  }
+
   //! All numbers of a copy, in order.
   void unpack(Array array, int copy, double* to) const { pbd::unpack(of(copy).*array, copy % kLanes, to); }
 

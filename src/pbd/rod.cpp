@@ -17,9 +17,16 @@ namespace {
 // Compliances as fractions of the joint's own response to a force. The first one makes up "zero"
 // stretch: it keeps the chain's matrix regular where a straight piece is taut between two holds and
 // bounds the forces of one that is pulled farther than it reaches; a hanging rope grows by some
-// micrometres. The other one, in all directions, is far below what can be seen.
+// micrometres. As that growth goes with the square of the number of segments, more than kManySegments get less. The
+// other one, in all directions, is far below what can be seen.
 constexpr double kAxialCompliance = 1e-5;
+constexpr double kManySegments = 100.0;
 constexpr double kFloorCompliance = 1e-8;
+
+double axialCompliance(int segments) {
+  const double coarser = std::min(1.0, kManySegments / segments);
+  return kAxialCompliance * coarser * coarser;
+}
 
 // Of the inertia of a free segment: torques do not turn a clamped one.
 constexpr double kClampedInertia = 1e30;
@@ -182,6 +189,8 @@ void Rod::stop() {
   state_->groups.fill(&RodLanes::angular_velocity, 0.0);
 }
 
+void Rod::displace(int particle, const Vector3& by) { state_->groups.displace(&RodLanes::position, particle, by); }
+
 void Rod::beginStep(double h) {
   const RodParameters& p = parameters_;
   RodSubstepInput& in = state_->input;
@@ -198,7 +207,7 @@ void Rod::beginStep(double h) {
   in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
   in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
   in.axial_compliance =
-      p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : kAxialCompliance / p.segmentMass();
+      p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : axialCompliance(p.segments) / p.segmentMass();
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
   dampTowardsReference(h);

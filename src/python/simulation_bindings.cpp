@@ -99,7 +99,13 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly(
           "body", [](const Simulation& simulation) { return simulation.body().clone(); },
           "The object as it is now, as an independent copy.")
-      .def_property_readonly("settled", &Simulation::settled, "False if settling was given up.")
+      .def_property_readonly(
+          "rest", [](const Simulation& simulation) { return name(simulation.rest()); },
+          "How the object rests at the start: stable, moving (settling was given up) or balanced (it leaves every\n"
+          "shape that it settles in when it is pushed a little).")
+      .def_property_readonly(
+          "rest_warning", [](const Simulation& simulation) { return describe(simulation.rest()); },
+          "Sentences on what is wrong with it and what helps; empty where it is stable.")
       .def_property_readonly("cycle", &Simulation::cycle)
       .def_property_readonly("reset_count", &Simulation::resetCount)
       .def_property_readonly("time", &Simulation::time, "Seconds since the start.")

@@ -40,10 +40,8 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
       control_(node_),
       visualization_(node_, makeDrawing(scenario.object), scenario.leader(), options.tf_prefix),
       diagnostics_(node_, simulation_, links_, control_, options.lockstep) {
-  if (!simulation_.settled()) {
-    ROS_WARN(
-        "The object still moved after a minute of settling; it starts as it is. A higher object.damping or more "
-        "simulation.substeps help.");
+  if (simulation_.rest() != pbd::Rest::STABLE) {
+    ROS_WARN("%s", describe(simulation_.rest()));
   }
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);

@@ -76,6 +76,7 @@ void SimulatorDiagnostics::reportLoop(Status& status) {
 void SimulatorDiagnostics::reportObject(Status& status) {
   const double stretch = simulation_.body().stretch();
   status.addf("relative error of its length", "%.2e", stretch);
+  status.add("rest at the start", pbd::name(simulation_.rest()));
   status.add("perturbed copies", simulation_.body().copies().size());
   status.addf("exact responses found", "%ld of %ld", last_.responses - last_.unknown_responses, last_.responses);
   if (std::abs(stretch) > simulation_.body().largestStretch()) {
@@ -86,6 +87,8 @@ void SimulatorDiagnostics::reportObject(Status& status) {
     status.summaryf(DiagnosticStatus::WARN,
                     "The exact response was not known in %ld of %ld cycles, and perturbed copies took over: %s.",
                     last_.unknown_responses, last_.responses, pbd::describe(last_.why_unknown));
+  } else if (simulation_.rest() != pbd::Rest::STABLE) {
+    status.summary(DiagnosticStatus::WARN, pbd::describe(simulation_.rest()));
   } else {
     status.summary(DiagnosticStatus::OK, "Solved within its tolerance.");
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "deformable_manipulation/pbd/response.h"
+#include "deformable_manipulation/pbd/rest.h"
 #include "deformable_manipulation/pbd/types.h"
 
 namespace deformable_manipulation {
@@ -145,11 +146,17 @@ class Body {
   //! @throw NonFiniteState if the state is no longer finite.
   void step(double time_step, int substeps);
 
-  //! Advances with the held points at rest until nothing moves any more.
+  //! Advances with the held points at rest until nothing moves any more. Neither very low nor very high damping delays
+  //! it or ends it early: it settles with one that comes to rest soon, which does not change the shape at rest.
   //! @return whether it settled within the time limit
   //! @throw ParameterError as for step(), or if tolerance or time limit are not finite or negative
   //! @throw NonFiniteState
   bool settle(const SettleOptions& options);
+
+  //! The same, and then pushes the object off shapes in which it only stands in balance. Where it comes back when it is
+  //! pushed a little, its state is that of settle().
+  //! @throw ParameterError, NonFiniteState as settle()
+  Rest settleStably(const SettleOptions& options);
 
   // Reading ------------------------------------------------------------------------------------
 
@@ -201,12 +208,27 @@ class Body {
   //! Takes all velocities away.
   virtual void stop() = 0;
 
+  //! Moves a particle of the object itself.
+  virtual void displace(int particle, const Vector3& by) = 0;
+
+  //! 1/s
+  virtual double damping() const = 0;
+
   void requireParticle(int particle) const;
 
  private:
   HeldPoint& findHeld(int particle);
   void advanceHolds(double h);
+  template <typename Settling>
+  auto quicklyDamped(const SettleOptions& options, Settling settling);
+  bool settleAsDamped(const SettleOptions& options);
+  Rest pushOffBalance(const SettleOptions& options);
+  bool leavesItsShape(const SettleOptions& options) const;
+  double extent() const;
+  void push(const SettleOptions& options);
+  bool isHeld(int particle) const;
   void retargetCopies();
+  void restartCopy(int copy);
   void advanceCopies(double h);
   bool inReach(const PerturbedCopy& copy, const Vector3& displacement, double margin) const;
   void checkFinite() const;

@@ -51,6 +51,8 @@ class Rod final : public Body {
   int firstNonFinite(int copy) const override;
   double highestSpeed() const override;
   void stop() override;
+  void displace(int particle, const Vector3& by) override;
+  double damping() const override { return parameters_.damping; }
 
  private:
   struct State;

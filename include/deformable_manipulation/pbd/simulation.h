@@ -37,8 +37,8 @@ struct Clock {
 
 //! A deformable object carried by velocity-controlled agents, with its perturbed copies.
 //!
-//! It starts settled between the agents. A command set between two advances acts in the next one
-//! and holds until it is replaced.
+//! It starts at rest between the agents, in a shape that it keeps where it finds one (see rest()). A command set
+//! between two advances acts in the next one and holds until it is replaced.
 class Simulation {
  public:
   //! Settles the object between the agents' starts.
@@ -48,8 +48,8 @@ class Simulation {
   Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents, const std::vector<Perturbation>& perturbations,
              const Clock& clock);
 
-  //! False if the object still moved when settling was given up.
-  bool settled() const { return settled_; }
+  //! How the object rests at the start.
+  Rest rest() const { return rest_; }
 
   //! @throw std::out_of_range if there is no such agent
   //! @throw std::invalid_argument if the twist is not finite
@@ -144,7 +144,7 @@ class Simulation {
   std::vector<AgentState> start_states_;
   std::vector<double> response_;  // of the holds, in the body's order
   bool start_changed_ = false;    // since start_body_ was settled
-  bool settled_ = false;
+  Rest rest_ = Rest::MOVING;
   long cycle_ = 0;
   int reset_count_ = 0;
 };

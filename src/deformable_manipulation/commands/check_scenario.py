@@ -6,6 +6,7 @@ from itertools import combinations
 from typing import Iterator, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.launch_arguments import (
     add_launch_arguments,
     launch_problems,
@@ -47,18 +48,32 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     if arguments.resolved:
         sys.stdout.write(scenario_to_yaml(scenario))
     else:
-        print("{}: correct".format(arguments.scenario))
-        for line in summary(scenario):
-            print("  {}".format(line))
-        for warning in warnings(scenario, find_scenario(arguments.scenario).stem):
-            print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
+        return _tell(scenario, arguments.scenario)
+    return 0
+
+
+def _tell(scenario: Scenario, given: str) -> int:
+    """Print what the scenario holds and what is unlikely in it; returns the exit status."""
+    # Imported late: loads the compiled core, which error messages do not need.
+    from deformable_manipulation.running.inspection import inspect_scenario
+
+    try:
+        inspection = inspect_scenario(scenario)
+    except ValueError as error:
+        return fail("check_scenario", "the scenario cannot be simulated: {}".format(error))
+    print("{}: correct".format(given))
+    for line in (*summary(scenario), *inspection.facts):
+        print("  {}".format(line))
+    for warning in (*_name_warnings(scenario, find_scenario(given).stem), *inspection.warnings):
+        print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="check_scenario",
-        description="Check a scenario file and report every mistake in it at once.",
+        description="Check a scenario file. Report every mistake in it at once; or else what it "
+        "comes to at its start, and what in it is rarely meant.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -72,16 +87,12 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
-    """What is allowed, and rarely meant; ``file_name`` is without its ending."""
-    # Imported late: loads the compiled distances, which error messages do not need.
-    from deformable_manipulation.distance.minimum_distance import MinimumDistance
-
+def _name_warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
+    """``file_name`` is without its ending."""
     if scenario.name != file_name:
         yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
             scenario.name, file_name
         )
-    yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
 
 
 def describe_obstacle(spec) -> str:
@@ -127,8 +138,9 @@ def summary(scenario: Scenario) -> Iterator[str]:
     for obstacle in scenario.obstacles:
         yield "obstacle {}: {}".format(obstacle.name, describe_obstacle(obstacle))
     yield "distance to keep from obstacles: {:g} m".format(scenario.controller.collision.offset)
-    yield "leader's path: {} waypoints, {:g} s".format(
-        len(scenario.leader.waypoints), scenario.leader.waypoints[-1].time
+    waypoints = scenario.leader.waypoints
+    yield "leader's path: {} waypoint{}, {:g} s".format(
+        len(waypoints), "" if len(waypoints) == 1 else "s", waypoints[-1].time
     )
     yield "duration: {:g} s, {} cycles at {:g} Hz".format(
         scenario.simulation.duration, scenario.cycles, scenario.controller.rate

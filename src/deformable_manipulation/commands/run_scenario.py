@@ -36,7 +36,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         # Before the folder is made: a scenario that cannot be simulated leaves nothing behind.
         loop = _make_loop(scenario, arguments.safety)
         folder = arguments.output or _default_folder(scenario)
-        recorder = RunRecorder(scenario, folder, arguments.safety, overwrite=arguments.force)
+        recorder = RunRecorder(scenario, folder, arguments.safety, arguments.force, loop.rest)
     except (ScenarioError, RecordingError) as error:
         print(error, file=sys.stderr)
         return 1
@@ -47,7 +47,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
     warn_of_standing_obstacles("run_scenario", scenario)
-    _warn_of_start(loop.distance(), scenario.controller.collision.offset)
+    _warn_of_start(loop, scenario.controller.collision.offset)
     _warn_of_poses(scenario)
     with interruptible():
         return _run(loop, recorder)
@@ -90,8 +90,11 @@ def _make_loop(scenario: Scenario, safety: bool):
     return ClosedLoop(scenario, safety=safety)
 
 
-def _warn_of_start(distance: float, offset: float) -> None:
-    """Warn of a start within a limit, which is allowed but rarely intended."""
+def _warn_of_start(loop, offset: float) -> None:
+    """Warn of a start that is allowed but rarely intended: not at rest, or within a limit."""
+    if loop.rest_warning:
+        print(f"run_scenario: WARNING: {loop.rest_warning}", file=sys.stderr)
+    distance = loop.distance()
     if distance < offset:
         print(
             f"run_scenario: WARNING: the object starts {1e3 * distance:.1f} mm from the obstacles, "

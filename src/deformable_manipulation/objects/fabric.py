@@ -4,7 +4,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from deformable_manipulation.reading.readers import Array, Node, Number, Section
 _SUBSTEP = 1e-3  # s; one iteration per substep is all that a fabric's constraints get
 _ROUNDING = 1e-6  # of a substep
 _LARGEST_PULL = 10.0  # times the weight of a fabric
+_RUBBERY = 0.05  # m/N, more than that of thin rubber
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,17 @@ class FabricSpec(ObjectSpec):
         mean_length = self.edges()[1].mean()
         pulled = _LARGEST_PULL * self.stretching_compliance * weight / mean_length
         return float(LARGEST_VALID_STRETCH + pulled)
+
+    def unlikely_material(self) -> Sequence[str]:
+        """See :meth:`.ObjectSpec.unlikely_material`."""
+        if self.stretching_compliance <= _RUBBERY:
+            return []
+        return [
+            "object.stretching_compliance: a square sheet grows by {:g} m per newton along its "
+            "sides. Compliances are in m/N, and cloth has 1e-5 to 1e-3".format(
+                self.stretching_compliance
+            )
+        ]
 
     def with_factors(self, stiffness: float, density: float) -> "FabricSpec":
         """See :meth:`.ObjectSpec.with_factors`."""

@@ -1,7 +1,7 @@
 """What every kind of object has."""
 
 from abc import ABC, abstractmethod
-from typing import Any, Callable, ClassVar, Dict, Optional, Tuple
+from typing import Any, Callable, ClassVar, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -67,6 +67,10 @@ class ObjectSpec(ABC):
     @abstractmethod
     def with_random_material(self, draw: Callable[[], float]) -> "ObjectSpec":
         """The same object of another material; each call of ``draw`` gives a factor."""
+
+    @abstractmethod
+    def unlikely_material(self) -> Sequence[str]:
+        """Sentences on values of its material that are allowed, and rarely meant."""
 
     @abstractmethod
     def description(self) -> str:

@@ -5,10 +5,8 @@ import math
 
 import numpy as np
 
-from deformable_manipulation.geometry.mesh_files import scaled_mesh
-from deformable_manipulation.geometry.planes import PlaneFrame
-from deformable_manipulation.geometry.rotation import rotate
-from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+from deformable_manipulation.distance.corners import obstacle_corners
+from deformable_manipulation.scenario.spec import PolygonObstacle
 from deformable_manipulation.simulation.factory import make_simulation
 
 _NEAR = 0.6  # m, obstacles are of interest so far from where the object and the agents come
@@ -30,7 +28,7 @@ def scene_bounds(scenario, points, agents):
     low, high = shown.min(axis=0), shown.max(axis=0)
     bounds = [low, high]
     for obstacle in scenario.obstacles:
-        corners = _corners(obstacle)
+        corners = obstacle_corners(obstacle)
         near_low = np.maximum(corners.min(axis=0), low - _NEAR)
         near_high = np.minimum(corners.max(axis=0), high + _NEAR)
         if (near_low <= near_high).all():
@@ -120,12 +118,3 @@ def _fit_grid(grid, center, extent, plane):
     cells = min(max(grid["Plane Cell Count"], cells), _LARGEST_GRID)
     grid["Plane Cell Count"] = int(cells) // 2 * 2
     grid["Offset"] = offset
-
-
-def _corners(obstacle):
-    """Corners (N, 3) [m] of an obstacle in the fixed frame."""
-    if isinstance(obstacle, MeshObstacle):
-        turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
-        return scaled_mesh(obstacle)[0] @ turn + np.array(obstacle.translation)
-    frame = PlaneFrame(obstacle.plane, obstacle.rotation)
-    return frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)

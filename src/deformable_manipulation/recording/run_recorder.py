@@ -28,11 +28,13 @@ class RunRecorder:
         directory,
         safety: bool = True,
         overwrite: bool = False,
+        start: str = "stable",
     ):
         """Prepare the folder and write the scenario into it.
 
         ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
-        already contains a run.
+        already contains a run; ``start`` tells how the object rests at the start, see
+        ``_pbd.Simulation.rest``.
 
         Raises:
             RecordingError: the folder holds a run already or cannot be written.
@@ -40,6 +42,7 @@ class RunRecorder:
         self.directory = Path(directory)
         self._scenario = scenario
         self._safety = safety
+        self._start = start
         self._series = TimeSeries.of(scenario)
         self._frames = []  # (time, points, agents, obstacles); one append each, never half a frame
         self._last_frame = -1
@@ -71,7 +74,9 @@ class RunRecorder:
         Raises:
             RecordingError: a file cannot be written. The other files are written all the same.
         """
-        summary = summarise(self._scenario, self._series, wall_time, completed, self._safety)
+        summary = summarise(
+            self._scenario, self._series, wall_time, completed, self._safety, self._start
+        )
         failures = []
         for name, write, binary in (
             (run_files.TIMESERIES, self._series.write_csv, False),

@@ -13,12 +13,23 @@ from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.stretch import largest_stretch, valid_stretch
 
+_UNSTABLE_STARTS = {
+    "moving": "the object still moved at the start",
+    "balanced": "the object started in a balance that may end with a fall or a snap",
+}
+
 
 def summarise(
-    scenario: Scenario, series: TimeSeries, wall_time: float, completed: bool, safety: bool
+    scenario: Scenario,
+    series: TimeSeries,
+    wall_time: float,
+    completed: bool,
+    safety: bool,
+    start: str,
 ) -> dict:
     """The numbers of a run; None where there is none (no obstacle, nothing recorded).
 
+    ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
     ``min_margin`` the lowest h of each barrier over the run, ``max_stretch`` the largest
     relative change of length anywhere in it; where that is more than
@@ -35,6 +46,7 @@ def summarise(
         "scenario": scenario.name,
         "completed": completed,
         "safety": safety,
+        "start": start,
         "duration": len(series) / scenario.controller.rate,
         "cycles": len(series),
         "rate": scenario.controller.rate,
@@ -86,6 +98,8 @@ def describe(summary: dict) -> str:
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))
+    if summary["start"] != "stable":
+        lines.append("WARNING: {}".format(_UNSTABLE_STARTS[summary["start"]]))
     if not summary["shape_valid"]:
         lines.append(
             "WARNING: the object was stretched or squeezed by up to {:.1f} %; beyond {:.1f} % its "

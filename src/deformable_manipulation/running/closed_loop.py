@@ -47,6 +47,16 @@ class ClosedLoop:
             )
         self._stretch = StretchGauge(scenario.object)
 
+    @property
+    def rest(self) -> str:
+        """How the object rests at the start: ``stable``, ``moving`` or ``balanced``."""
+        return self._simulation.rest
+
+    @property
+    def rest_warning(self) -> str:
+        """Sentences on what is wrong with that and what helps; empty where it is stable."""
+        return self._simulation.rest_warning
+
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
         return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])

@@ -48,7 +48,8 @@ class SimulationSpec:
     substeps: int = parameter(
         Substeps(),
         "Substeps per time step; the cost grows in proportion. `auto`: 2 for rods, which is enough "
-        "for `direct` (`gauss_seidel` needs tens); for fabrics, as many as make substeps of 1 ms.",
+        "for `direct` (`gauss_seidel` needs tens), and up to 8 for more than 140 segments that "
+        "hardly resist bending; for fabrics, as many as make substeps of 1 ms.",
         default=2,
         default_text="`auto`",
     )

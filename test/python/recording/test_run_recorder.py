@@ -170,6 +170,7 @@ def test_summary_numbers(scenario, tmp_path):
         "scenario": "synthetic",
         "completed": True,
         "safety": False,
+        "start": "stable",
         "duration": 4 / RATE,
         "cycles": 4,
         "rate": RATE,

@@ -21,6 +21,7 @@ class ReplayLoop:
 
     end = None
     start = 1.0
+    rest, rest_warning = "stable", ""
     runs = []
 
     def __init__(self, scenario, safety=True):
@@ -182,6 +183,15 @@ def test_failing_to_write_is_no_success(loop, scenario_file, output, monkeypatch
     monkeypatch.setattr(run_recorder.np, "savez_compressed", full_disk)
     assert main([scenario_file, "--output", str(output)]) == 1
     assert "No space left" in capsys.readouterr().err
+
+
+def test_a_start_that_is_no_stable_rest_is_told(loop, scenario_file, output, capsys):
+    loop.rest, loop.rest_warning = "balanced", "It may fall over."
+    assert main([scenario_file, "--output", str(output)]) == 0
+    printed = capsys.readouterr()
+    assert "WARNING: It may fall over." in printed.err
+    assert "WARNING: the object started in a balance" in printed.out
+    assert json.loads((output / "summary.json").read_text())["start"] == "balanced"
 
 
 @pytest.mark.parametrize("start, warned", [(1.0, False), (0.01, True), (-0.1, True)])

@@ -312,7 +312,7 @@ def test_a_simulation_s_body_outlives_it():
 
 def test_cycles_commands_and_reset():
     simulation = make_simulation(steps_per_cycle=2)
-    assert simulation.settled
+    assert simulation.rest == "stable"
     start = simulation.points()
     simulation.set_command(1, (0.0, 0.0, 0.1))
     np.testing.assert_array_equal(simulation.velocities(), 0.0)

@@ -1,0 +1,141 @@
+"""What a correct scenario comes to at its start, and what in it is rarely meant."""
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Iterator, Tuple
+
+import numpy as np
+
+from deformable_manipulation.distance.corners import obstacle_corners
+from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.motion.leader import LeaderPath
+from deformable_manipulation.scenario.spec import PolygonObstacle, Scenario
+from deformable_manipulation.simulation.factory import make_simulation
+
+_SIZES_APART = 100.0  # times the object: an obstacle of that size has rather another unit
+_LARGE_PERTURBATION = 0.25  # of the free length between two agents
+_LARGE_MARGIN = 0.05  # of the free length between two agents
+_PATH_SAMPLES = 1000  # between waypoints, of which there are not many
+_ROUNDING = 1.0 + 1e-6
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What is worth knowing before a run: facts, and what is allowed but rarely meant."""
+
+    facts: Tuple[str, ...]
+    warnings: Tuple[str, ...]
+
+
+def inspect_scenario(scenario: Scenario) -> Inspection:
+    """Let the object settle between the agents, and look at it, the obstacles and the path.
+
+    Raises:
+        _pbd.ParameterError: the object does not settle.
+        ValueError: an obstacle's shape is none.
+    """
+    simulation = make_simulation(scenario, copies=False)
+    points = simulation.points()
+    distances = make_minimum_distance(scenario)
+    start = float(distances.compute(points[:1]).minimum[0])
+    size = float(np.ptp(points[0], axis=0).max())
+    facts, warnings = [], list(getattr(distances, "warnings", ()))
+    facts.append("at the start the object reaches from {} to {} m".format(*_bounds(points[0])))
+    if simulation.rest_warning:
+        warnings.append(simulation.rest_warning)
+    for obstacle in scenario.obstacles:
+        corners = obstacle_corners(obstacle)
+        facts.append(_extent_of(obstacle, corners))
+        warnings += _unlikely_size(obstacle, corners, size)
+    if scenario.obstacles:
+        facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
+    warnings += _start_too_near(scenario, start)
+    warnings += _path_warnings(scenario)
+    warnings += _margin_warnings(scenario)
+    warnings += scenario.object.unlikely_material()
+    return Inspection(tuple(facts), tuple(warnings))
+
+
+def _bounds(points: np.ndarray) -> Tuple[str, str]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    return _place(low), _place(high)
+
+
+def _place(point: np.ndarray) -> str:
+    return "({})".format(", ".join("{:.4g}".format(value + 0.0) for value in np.round(point, 6)))
+
+
+def _extent_of(obstacle, corners: np.ndarray) -> str:
+    low, high = _bounds(corners)
+    endless = ", endless across its plane" if isinstance(obstacle, PolygonObstacle) else ""
+    return "obstacle {} reaches from {} to {} m{}".format(obstacle.name, low, high, endless)
+
+
+def _unlikely_size(obstacle, corners: np.ndarray, size: float) -> Iterator[str]:
+    largest = float(np.ptp(corners, axis=0).max())
+    if largest > _SIZES_APART * size:
+        yield (
+            "obstacle {}: it is {:.4g} m long, {:.0f} times as long as the object. If its file is "
+            "in millimetres, use a scale of 0.001".format(obstacle.name, largest, largest / size)
+        )
+    elif largest * _SIZES_APART < size:
+        yield (
+            "obstacle {}: it is only {:.4g} m long, and the object {:.4g} m. Check the unit of its "
+            "file, and its scale".format(obstacle.name, largest, size)
+        )
+
+
+def _start_too_near(scenario: Scenario, start: float) -> Iterator[str]:
+    offset = scenario.controller.collision.offset
+    if start < offset:
+        yield (
+            "the object starts {:.1f} mm from the obstacles, closer than "
+            "controller.collision.offset, {:.1f} mm (negative: inside)".format(
+                1e3 * start, 1e3 * offset
+            )
+        )
+
+
+def _path_warnings(scenario: Scenario) -> Iterator[str]:
+    waypoints = scenario.leader.waypoints
+    end = waypoints[-1].time
+    if scenario.simulation.duration < end:
+        yield (
+            "simulation.duration: the run ends after {:g} s, before the leader's path, which takes "
+            "{:g} s".format(scenario.simulation.duration, end)
+        )
+    path = LeaderPath(waypoints)
+    times = np.linspace(waypoints[0].time, end, _PATH_SAMPLES)
+    fastest = max(float(np.abs(path.velocity(time)).max()) for time in times)
+    limit = scenario.controller.max_velocity
+    if fastest > limit * _ROUNDING:
+        yield (
+            "leader.waypoints: a component of the leader's velocity reaches {:.3g} m/s; assistants "
+            "reach {:.3g} m/s (controller.max_velocity) and fall behind".format(fastest, limit)
+        )
+
+
+def _margin_warnings(scenario: Scenario) -> Iterator[str]:
+    """Lengths whose defaults suit objects of some metres."""
+    agents = scenario.agents
+    lengths = [
+        scenario.object.free_length(first.particle, second.particle)
+        for first, second in combinations(agents, 2)
+    ]
+    if not lengths:
+        return
+    shortest = min(lengths)
+    controller = scenario.controller
+    perturbation = max(map(abs, controller.perturbation))
+    if perturbation > _LARGE_PERTURBATION * shortest:
+        yield (
+            "controller.perturbation: {:g} m is large beside the {:.3g} m of object between two "
+            "agents. A tenth of that gives more local gradients".format(perturbation, shortest)
+        )
+    for name in controller.barriers:
+        margin = getattr(getattr(controller, name), "margin", 0.0)
+        if margin > _LARGE_MARGIN * shortest:
+            yield (
+                "controller.{}.margin: {:g} m is large beside the {:.3g} m of object between two "
+                "agents".format(name, margin, shortest)
+            )
