@@ -22,9 +22,7 @@ CORRECT = {
         "hand": {"particle": 0, "role": "leader", "start": [0.0, 0.0, 1.0]},
         "helper": {"particle": 9, "role": "assistant", "start": [0.0, 1.5, 1.0]},
     },
-    "obstacles": [
-        {"name": "block", "polygon": [[2, 0], [3, 0], [3, 1], [2, 1]], "plane": "xz"}
-    ],
+    "obstacles": [{"name": "block", "polygon": [[2, 0], [3, 0], [3, 1], [2, 1]], "plane": "xz"}],
     "leader": {
         "waypoints": [
             {"time": 0.0, "position": [0.0, 0.0, 0.0]},
