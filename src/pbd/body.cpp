@@ -101,6 +101,8 @@ const HeldPoint& Body::held(int particle) const {
   throw std::invalid_argument("particle " + std::to_string(particle) + " is not held");
 }
 
+std::string Body::softness(double, int) const { return ""; }
+
 ResponseStatus Body::response(double*) { return ResponseStatus::NOT_AVAILABLE; }
 
 int Body::addCopy(int particle, const Vector3& displacement) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "fabric_constraints.h"
@@ -18,6 +20,10 @@
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
+
+// Times the compliance of the material: less is none that could be seen.
+constexpr double kTrueStiffness = 1.05;
+constexpr int kMostSubsteps = 10000;
 
 //! 1/s. Rest lengths adapt slowly, for they must not feed energy into vibrations faster than damping takes it away.
 double adaptationRate(double damping) { return std::min(1.0, 0.1 * damping); }
@@ -98,6 +104,49 @@ void Fabric::setMaterial(const std::vector<MaterialParameter>& parameters) {
   parameters_.bending_compliance = values[1].second;
   parameters_.damping = values[2].second;
   state_->constraints_for = 0.0;
+}
+
+double Fabric::effectiveCompliance(double substep) const {
+  FabricConstraints constraints = state_->constraints;
+  std::vector<double> inverse_mass(state_->masses.size());
+  std::transform(state_->masses.begin(), state_->masses.end(), inverse_mass.begin(), [](double m) { return 1.0 / m; });
+  constraints.update(inverse_mass, parameters_.stretching_compliance, parameters_.bending_compliance,
+                     parameters_.damping, substep);
+  return constraints.stretchingCompliance();
+}
+
+int Fabric::substepsForStiffness(double time_step, int least, int most) const {
+  const auto soft = [&](int substeps) {
+    return effectiveCompliance(time_step / substeps) > kTrueStiffness * parameters_.stretching_compliance;
+  };
+  if (!soft(least) || soft(most)) {
+    return soft(least) ? most : least;
+  }
+  int too_few = least;
+  for (int enough = most; enough - too_few > 1;) {
+    const int middle = too_few + (enough - too_few) / 2;
+    (soft(middle) ? too_few : enough) = middle;
+    most = enough;
+  }
+  return most;
+}
+
+std::string Fabric::softness(double time_step, int substeps) const {
+  const double material = parameters_.stretching_compliance;
+  const double effective = effectiveCompliance(time_step / substeps);
+  if (effective <= kTrueStiffness * material) {
+    return "";
+  }
+  std::ostringstream text;
+  text << std::setprecision(3) << "object.stretching_compliance: with " << substeps
+       << " substeps this mesh yields like one of " << effective << " m/N instead of " << material << " m/N.";
+  const int enough = substepsForStiffness(time_step, substeps, kMostSubsteps);
+  if (effectiveCompliance(time_step / enough) <= kTrueStiffness * material) {
+    text << " simulation.substeps: " << enough << " keeps the true stiffness; a coarser mesh needs fewer.";
+  } else {
+    text << " More simulation.substeps or a coarser mesh come nearer.";
+  }
+  return text.str();
 }
 
 double Fabric::freeLength(int particle, int other) const {

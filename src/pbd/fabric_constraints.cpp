@@ -187,6 +187,14 @@ void FabricConstraints::updateFolds(const std::vector<double>& inverse_mass, dou
   }
 }
 
+double FabricConstraints::stretchingCompliance() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    sum += 1.0 / (elastic_[i] * rest_[i].length_share);
+  }
+  return sum / rest_.size();
+}
+
 void FabricConstraints::restLengths(AlignedArray& to) const {
   auto at = to.begin();
   for (const HingeConstraint& hinge : hinges_) {

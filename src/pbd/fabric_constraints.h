@@ -27,6 +27,9 @@ class FabricConstraints {
   //! [hinges and then boundaries] N/m, force by elongation of each edge in the state of rest.
   const std::vector<double>& springs() const { return elastic_; }
 
+  //! [m/N] What the springs come to as a compliance of the fabric: the mean over the edges.
+  double stretchingCompliance() const;
+
   //! [hinges] N/m, force by fold.
   const std::vector<double>& folds() const { return elastic_fold_; }
 

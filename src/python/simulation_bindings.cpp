@@ -104,6 +104,13 @@ void bindSimulation(py::module_& module) {
           "How the object rests at the start: stable, moving (settling was given up) or balanced (it leaves every\n"
           "shape that it settles in when it is pushed a little).")
       .def_property_readonly(
+          "softness",
+          [](const Simulation& simulation) {
+            return simulation.body().softness(simulation.clock().time_step, simulation.clock().substeps);
+          },
+          "Where the substeps cannot hold the stiffness of the material: what it comes to and what helps, as\n"
+          "sentences; otherwise empty.")
+      .def_property_readonly(
           "rest_warning", [](const Simulation& simulation) { return describe(simulation.rest()); },
           "Sentences on what is wrong with it and what helps; empty where it is stable.")
       .def_property_readonly("cycle", &Simulation::cycle)

@@ -43,6 +43,10 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   if (simulation_.rest() != pbd::Rest::STABLE) {
     ROS_WARN("%s", describe(simulation_.rest()));
   }
+  const std::string softness = simulation_.body().softness(scenario.clock.time_step, scenario.clock.substeps);
+  if (!softness.empty()) {
+    ROS_WARN("%s", softness.c_str());
+  }
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
   positions_publisher_ = node_.advertise<AgentPositions>("agent_positions", kQueue, latch);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "deformable_manipulation/pbd/response.h"
@@ -71,6 +72,10 @@ class Body {
 
   //! Relative error of the length (or size) of the object itself against the unstretched one.
   virtual double stretch() const = 0;
+
+  //! Where substeps of this length [s] cannot hold the material's stiffness: what it comes to, and what helps, as
+  //! sentences; otherwise empty.
+  virtual std::string softness(double time_step, int substeps) const;
 
   //! Changes the material while running; shape and motion stay.
   //! @throw ParameterError with every parameter that the object does not have or that is out of range;

@@ -25,6 +25,15 @@ class Fabric final : public Body {
 
   const FabricParameters& parameters() const { return parameters_; }
 
+  //! [m/N] The stretching compliance that the fabric comes to with substeps of this length [s]: that of its material,
+  //! or more where its springs are too stiff for the mesh, its mass and the substep.
+  double effectiveCompliance(double substep) const;
+
+  //! The least number of substeps of a time step [s], `least` to `most`, with which that is the one of the material;
+  //! `most` where none is.
+  int substepsForStiffness(double time_step, int least, int most) const;
+  std::string softness(double time_step, int substeps) const override;
+
   //! Keys: stretching_compliance [m/N], bending_compliance [1/(N m)], damping [1/s].
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 

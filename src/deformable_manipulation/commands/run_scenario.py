@@ -91,9 +91,9 @@ def _make_loop(scenario: Scenario, safety: bool):
 
 
 def _warn_of_start(loop, offset: float) -> None:
-    """Warn of a start that is allowed but rarely intended: not at rest, or within a limit."""
-    if loop.rest_warning:
-        print(f"run_scenario: WARNING: {loop.rest_warning}", file=sys.stderr)
+    """Warn of a start that is allowed but rarely intended: not at rest, too soft, or near."""
+    for warning in loop.warnings:
+        print(f"run_scenario: WARNING: {warning}", file=sys.stderr)
     distance = loop.distance()
     if distance < offset:
         print(

@@ -21,6 +21,7 @@ from deformable_manipulation.reading.pose import POSE, Pose
 from deformable_manipulation.reading.readers import Array, Node, Number, Section, Unreadable
 
 _SUBSTEP = 1e-3  # s; one iteration per substep is all that a fabric's constraints get
+_MOST_SUBSTEPS = 10  # times the usual number, unless the scenario wants more
 _ROUNDING = 1e-6  # of a substep
 _LARGEST_PULL = 10.0  # times the weight of a fabric
 _RUBBERY = 0.05  # m/N, more than that of thin rubber
@@ -102,8 +103,11 @@ class FabricSpec(ObjectSpec):
         return _body(self).free_length(first, second)
 
     def substeps(self, time_step: float) -> int:
-        """As many as make substeps of a length that suits fabrics."""
-        return math.ceil(time_step / _SUBSTEP - _ROUNDING)
+        """Of a length that suits fabrics, or as short as the stiffness of its springs needs."""
+        usual = math.ceil(time_step / _SUBSTEP - _ROUNDING)
+        if self.stretching_compliance == 0.0:
+            return usual  # no substep is short enough
+        return _body(self).substeps_for_stiffness(time_step, usual, _MOST_SUBSTEPS * usual)
 
     def valid_stretch(self, gravity: Vector) -> float:
         """More than that of rods by what a pull of ten times its weight does.

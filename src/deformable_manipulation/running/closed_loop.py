@@ -1,7 +1,7 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
-from typing import Dict
+from typing import Dict, Tuple
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
@@ -53,9 +53,10 @@ class ClosedLoop:
         return self._simulation.rest
 
     @property
-    def rest_warning(self) -> str:
-        """Sentences on what is wrong with that and what helps; empty where it is stable."""
-        return self._simulation.rest_warning
+    def warnings(self) -> Tuple[str, ...]:
+        """Sentences on an unstable rest, and on a stiffness that the substeps cannot hold."""
+        simulation = self._simulation
+        return tuple(filter(None, (simulation.rest_warning, simulation.softness)))
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""

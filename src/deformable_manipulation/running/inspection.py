@@ -41,8 +41,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     size = float(np.ptp(points[0], axis=0).max())
     facts, warnings = [], list(getattr(distances, "warnings", ()))
     facts.append("at the start the object reaches from {} to {} m".format(*_bounds(points[0])))
-    if simulation.rest_warning:
-        warnings.append(simulation.rest_warning)
+    warnings += filter(None, (simulation.rest_warning, simulation.softness))
     for obstacle in scenario.obstacles:
         corners = obstacle_corners(obstacle)
         facts.append(_extent_of(obstacle, corners))

@@ -49,7 +49,8 @@ class SimulationSpec:
         Substeps(),
         "Substeps per time step; the cost grows in proportion. `auto`: 2 for rods, which is enough "
         "for `direct` (`gauss_seidel` needs tens), and up to 8 for more than 140 segments that "
-        "hardly resist bending; for fabrics, as many as make substeps of 1 ms.",
+        "hardly resist bending; for fabrics, as many as make substeps of 1 ms, or up to ten times "
+        "as many where the stiffness of a fine mesh needs them.",
         default=2,
         default_text="`auto`",
     )

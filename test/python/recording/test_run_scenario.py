@@ -21,7 +21,7 @@ class ReplayLoop:
 
     end = None
     start = 1.0
-    rest, rest_warning = "stable", ""
+    rest, warnings = "stable", ()
     runs = []
 
     def __init__(self, scenario, safety=True):
@@ -186,7 +186,7 @@ def test_failing_to_write_is_no_success(loop, scenario_file, output, monkeypatch
 
 
 def test_a_start_that_is_no_stable_rest_is_told(loop, scenario_file, output, capsys):
-    loop.rest, loop.rest_warning = "balanced", "It may fall over."
+    loop.rest, loop.warnings = "balanced", ("It may fall over.",)
     assert main([scenario_file, "--output", str(output)]) == 0
     printed = capsys.readouterr()
     assert "WARNING: It may fall over." in printed.err
