@@ -50,7 +50,7 @@ class Barrier {
  public:
   virtual ~Barrier() = default;
 
-  //! The least h of an agent [m, or the barrier's own unit], without margins; infinite where nothing limits it.
+  //! The least h of an agent [m], without margins; infinite where nothing limits it.
   virtual double value(const PresentState& state, int agent) const = 0;
 
   //! Adds the constraints on the velocities of the commanded assistants.

@@ -29,6 +29,8 @@ def run_command(name: str, arguments: Sequence[str]) -> int:
             return CLOSED
         except OSError as error:
             _discard_output()
+            if error.filename is not None:  # a file of the package, or a bug
+                return fail(name, f"{error.filename}: {error.strerror or error}")
             return fail(name, f"cannot write the output: {error.strerror or error}")
 
 

@@ -27,9 +27,11 @@ def _folder() -> Path:
 def presets(kind: str) -> Mapping[str, Mapping[str, Any]]:
     """All presets for objects of a kind, by name, with their NOTES: ``config/materials/KIND.yaml``.
 
-    Not to be changed. Raises FileNotFoundError where the package's files are not found.
+    Not to be changed. None where there is no such file.
     """
     path = _folder() / "{}.yaml".format(kind)
+    if not path.is_file():
+        return {}
     return yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
@@ -53,7 +55,8 @@ def read_with_material(node: Node, kind: str, read: Callable[[Node], Any]):
         return read(_filled(node, kind, material.value, given))
     material.report.add(material.path, _unknown(material.value, kind), show(material.value))
     # With any preset in its place, the section's other mistakes are found, and no false ones.
-    read(_filled(node, kind, next(iter(known)), given))
+    if known:
+        read(_filled(node, kind, next(iter(known)), given))
     raise Unreadable
 
 
@@ -69,5 +72,5 @@ def _unknown(value, kind: str) -> str:
     else:
         hint = nearest(value, presets(kind)) if isinstance(value, str) else ""
     return "is no known material of type {};{} known: {}".format(
-        kind, hint, ", ".join(presets(kind))
+        kind, hint, ", ".join(presets(kind)) or "none; remove it, and give its values"
     )

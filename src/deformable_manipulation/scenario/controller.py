@@ -92,7 +92,7 @@ class _ControllerKeys:
         Priority(),
         "Which limit yields to which where not all can hold: the first yields last.",
         default=None,
-        default_text="`[collision, workspace, overstretch, proximity]`, those in use",
+        default_text="`[{}]`, those in use".format(", ".join(BARRIERS)),
         native=True,
     )
     rate: float = parameter(

@@ -68,7 +68,12 @@ def updated(page: str) -> str:
     """
     wanted = sections()
     places = [match["name"].strip() for match in _TABLE.finditer(page)]
-    problems = ["no table below the heading '{}'".format(n) for n in wanted if n not in places]
+    problems = [
+        "no table below the heading '{}': write the heading and, below it, the two lines {} and "
+        "{}".format(name, _BEGIN, _END)
+        for name in wanted
+        if name not in places
+    ]
     problems += [
         "a table below '{}', which is no section".format(n) for n in places if n not in wanted
     ]
@@ -151,7 +156,11 @@ def main(arguments: Sequence[str]) -> int:
     """Write the page of this checkout, or check it; returns the exit status."""
     path = package_share_directory() / "docs" / "parameters.md"
     page = path.read_text(encoding="utf-8")
-    fresh = updated(page)
+    try:
+        fresh = updated(page)
+    except ValueError as error:
+        print("parameters_page: {}".format(error), file=sys.stderr)
+        return 1
     if list(arguments) == ["--check"]:
         if fresh != page:
             print("docs/parameters.md is out of date: run scripts/parameters_page", file=sys.stderr)

@@ -36,6 +36,15 @@ def test_an_interruption(number, monkeypatch, capsys):
     assert capsys.readouterr() == ("", "")
 
 
+def test_a_file_that_is_missing_is_named(monkeypatch, capfd):
+    command = types.ModuleType("a_command")
+    command.main = lambda arguments: open("/nowhere/a_file")
+    monkeypatch.setitem(sys.modules, "deformable_manipulation.commands.a_command", command)
+    monkeypatch.setattr("deformable_manipulation.commands.guard._discard_output", lambda: None)
+    assert run_command("a_command", []) == 1
+    assert capfd.readouterr().err == "a_command: /nowhere/a_file: No such file or directory\n"
+
+
 def test_the_exit_status_of_wrong_usage(capsys):
     assert run_command("check_scenario", ["a.yaml", "--nonsense"]) == 2
     assert "unrecognized arguments: --nonsense" in capsys.readouterr().err

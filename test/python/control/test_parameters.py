@@ -1,6 +1,7 @@
 """The controller's parameters on their way to the C++ core: none is forgotten."""
 
 import copy
+import dataclasses
 
 import pytest
 import yaml
@@ -12,7 +13,8 @@ from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.controller import ControllerSpec
 
-WORKSPACE = {"planes": [{"point": [0, 0, 9], "normal": [0, 0, -1]}]}
+# A section of each barrier that a scenario may leave out.
+OPTIONAL = {"workspace": {"planes": [{"point": [0, 0, 9], "normal": [0, 0, -1]}]}}
 DECLARED = [
     (path, declaration)
     for path, declaration in declared_below(ControllerSpec)
@@ -23,9 +25,10 @@ DECLARED = [
 @pytest.fixture(scope="module")
 def parameters():
     """With every barrier that there is."""
-    override = ("controller.workspace", yaml.safe_dump(WORKSPACE))
-    scenario = load_scenario("rope_one_assistant", [override])
-    assert set(scenario.controller.barriers) == set(BARRIERS)
+    overrides = [("controller." + name, yaml.safe_dump(OPTIONAL[name])) for name in OPTIONAL]
+    scenario = load_scenario("rope_one_assistant", overrides)
+    missing = set(BARRIERS) - set(scenario.controller.barriers)
+    assert not missing, "add a section of each of them to OPTIONAL"
     return native_parameters(scenario, ["assistant_1"], True)
 
 
@@ -41,6 +44,11 @@ def without(mapping, path):
 
 def test_there_is_a_native_barrier_of_each_name():
     assert set(_control.barrier_names()) == set(BARRIERS)
+
+
+def test_a_barrier_that_may_be_missing_has_no_live_parameters():
+    with pytest.raises(ValueError, match="barrier proximity: min_distance must not be live"):
+        dataclasses.replace(BARRIERS["proximity"], default=None)
 
 
 @pytest.mark.parametrize("path, declaration", DECLARED, ids=lambda each: str(each)[:40])

@@ -4,6 +4,7 @@ import copy
 
 import pytest
 
+from deformable_manipulation.objects import materials
 from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.objects.materials import NOTES, preset_values, presets
 from deformable_manipulation.scenario import (
@@ -67,6 +68,13 @@ def test_unknown_materials_are_told_with_all_other_mistakes(
     found = problems_of(mapping)
     assert set(found) == {"object.material", "object.damping"}
     assert expected in found["object.material"]
+
+
+def test_a_kind_may_have_no_presets(made_of, problems_of, monkeypatch):
+    monkeypatch.setattr(materials, "presets", lambda kind: {})
+    found = problems_of(made_of("rod", "hemp_rope"))
+    assert "known: none; remove it" in found["object.material"]
+    assert presets("a kind without a file") == {}
 
 
 @pytest.fixture(scope="module")

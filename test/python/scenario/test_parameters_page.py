@@ -5,6 +5,7 @@ import dataclasses
 import pytest
 
 from deformable_manipulation.reading.parameter import declared, declared_below
+from deformable_manipulation.scenario import parameters_page
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.live import live_parameters
 from deformable_manipulation.scenario.parameters_page import main, sections, updated
@@ -36,6 +37,16 @@ def test_every_barrier_has_its_section_and_its_page(page):
 def test_a_section_without_a_place_is_told(page, lost):
     with pytest.raises(ValueError, match="leader.workspace|barriers"):
         updated(page.replace(lost, "### elsewhere"))
+
+
+def test_the_command_tells_what_to_write(page, tmp_path, monkeypatch, capsys):
+    share = tmp_path / "docs" / "parameters.md"
+    share.parent.mkdir()
+    share.write_text(page.replace("### leader.workspace", "### elsewhere"), encoding="utf-8")
+    monkeypatch.setattr(parameters_page, "package_share_directory", lambda: tmp_path)
+    assert main([]) == 1
+    told = capsys.readouterr().err
+    assert "no table below the heading 'leader.workspace': write the heading" in told
 
 
 def test_every_section_of_the_scenario_is_on_the_page():

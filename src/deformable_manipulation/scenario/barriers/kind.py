@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, Callable, Dict
 
-from deformable_manipulation.reading.parameter import parameter
+from deformable_manipulation.reading.parameter import declared_below, parameter
 from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number, Section
 
 
@@ -44,6 +44,18 @@ class BarrierKind:
     default: Any
     derive: Callable[..., Dict[str, Any]] = _nothing
     check: Callable[..., None] = _no_check
+
+    def __post_init__(self):
+        if self.default is not None:
+            return
+        for path, declaration in declared_below(self.spec):
+            if declaration.live is not None:
+                raise ValueError(
+                    "barrier {}: {} must not be live, as the section may be missing "
+                    "(default=None); leave live out, or give the section a default".format(
+                        self.name, ".".join(path)
+                    )
+                )
 
     def field(self):
         """The parameter of the section ``controller`` that holds this barrier's section."""
