@@ -119,6 +119,7 @@ def test_places_and_limits(fabric_mapping, tmp_path):
 
 @pytest.mark.parametrize("time_step, substeps", [(0.01, 10), (0.02, 20), (0.0005, 1)])
 def test_substeps_suit_the_object(fabric_mapping, mapping, change, tmp_path, time_step, substeps):
+    change(fabric_mapping, "object.stretching_compliance", 1e-2)
     change(fabric_mapping, "simulation.time_step", time_step)
     assert scenario_from_mapping(fabric_mapping, tmp_path).simulation.substeps == substeps
     change(mapping, "simulation.time_step", time_step)
