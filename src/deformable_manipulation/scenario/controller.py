@@ -141,6 +141,16 @@ class _ControllerKeys:
         live=Live(("smoothing",), 0.0, 10.0),
         native=True,
     )
+    surprise_filter: float = parameter(
+        Number("s", at_least=0.0, at_most=10.0),
+        "Time constant of the filter that finds at what rate a distance falls without being moved: "
+        "the object swings, lags behind or is of another material, or nobody tells the obstacle's "
+        "velocity. The rows count with that rate. 0 switches it off.",
+        default=0.1,
+        paper=0.0,
+        live=Live(("surprise_filter",), 0.0, 10.0),
+        native=True,
+    )
     perturbation: Vector = parameter(
         vector("m", smallest_size=_SMALLEST_PERTURBATION),
         "Displacement of the held point in the copy of each axis. It may be negative. Smaller "
