@@ -48,6 +48,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
   positions_publisher_ = node_.advertise<AgentPositions>("agent_positions", kQueue, latch);
+  waiting_publisher_ = node_.advertise<std_msgs::String>("waiting_for", 1, true);
   if (options_.lockstep) {
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1, latch);
     if (options_.recorded) {
@@ -110,13 +111,19 @@ void Simulator::waitForSubscribers(const ros::Publisher& publisher, int wanted) 
   }
 }
 
-//! A simulation of agents that are somewhere else must not move any robot.
-bool Simulator::agentsAreTrue() const {
-  bool all = true;
+//! A simulation of agents that are somewhere else must not move any robot. Tells everybody whom it waits for.
+bool Simulator::agentsAreTrue() {
+  std_msgs::String waiting_for;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    all = links_[i].isTrue(simulation_.pose(static_cast<int>(i))) && all;
+    if (!links_[i].isTrue(simulation_.pose(static_cast<int>(i)))) {
+      waiting_for.data += (waiting_for.data.empty() ? "" : " and ") + links_[i].awaited();
+    }
   }
-  return all;
+  if (waiting_for.data != waiting_for_.data) {
+    waiting_for_ = waiting_for;
+    waiting_publisher_.publish(waiting_for_);
+  }
+  return waiting_for.data.empty();
 }
 
 void Simulator::publish() {
