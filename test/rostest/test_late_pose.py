@@ -30,7 +30,7 @@ class LatePoseTest(unittest.TestCase):
             self.assertFalse(response.success)
             self.assertEqual(
                 response.message,
-                "Nothing changed. The simulator waits for the pose of assistant_1 on "
+                "Nothing changed: the simulator waits for the pose of assistant_1 on "
                 "/assistant_1/pose.",
             )
         Messages("/diagnostics", DiagnosticArray).wait_for(

@@ -6,12 +6,13 @@ from itertools import combinations
 from typing import Iterator, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.copied_name import name_warning
+from deformable_manipulation.commands.last_word import say_after_parent
 from deformable_manipulation.commands.launch_arguments import (
     add_launch_arguments,
     launch_problems,
 )
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
@@ -42,15 +43,21 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         if problems:
             raise ScenarioError(problems, "launch arguments")
     except ScenarioError as error:
-        print(error, file=sys.stderr)
+        if arguments.last_word:
+            say_after_parent(str(error))
+        else:
+            print(error, file=sys.stderr)
         return 1
+    misnamed = name_warning(scenario, arguments.scenario)
+    if misnamed:
+        print("check_scenario: WARNING: {}".format(misnamed), file=sys.stderr)
     if arguments.resolved:
         sys.stdout.write(scenario_to_yaml(scenario))
     else:
         print("{}: correct".format(arguments.scenario))
         for line in summary(scenario):
             print("  {}".format(line))
-        for warning in warnings(scenario, find_scenario(arguments.scenario).stem):
+        for warning in warnings(scenario):
             print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
     return 0
 
@@ -72,15 +79,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
-    """What is allowed, and rarely meant; ``file_name`` is without its ending."""
+def warnings(scenario: Scenario) -> Iterator[str]:
+    """What is allowed, and rarely meant."""
     # Imported late: loads the compiled distances, which error messages do not need.
     from deformable_manipulation.distance.minimum_distance import MinimumDistance
 
-    if scenario.name != file_name:
-        yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
-            scenario.name, file_name
-        )
     yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
 
 

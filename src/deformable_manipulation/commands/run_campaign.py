@@ -21,6 +21,7 @@ from deformable_manipulation.commands.arguments import (
     command_parser,
     folder_name,
 )
+from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
@@ -59,6 +60,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print(f"run_campaign: {error}", file=sys.stderr)
         return 1
     warn_of_standing_obstacles("run_campaign", scenario)
+    misnamed = name_warning(scenario, arguments.scenario)
+    if misnamed:
+        print(f"run_campaign: WARNING: {misnamed}", file=sys.stderr)
     with interruptible():
         return _run(campaign, arguments, folder)
 

@@ -112,7 +112,7 @@ class Team:
         return SetBoolResponse(True, "Follows the leader." if request.data else "Stands still.")
 
     def _no_state(self):
-        return "Nothing changed. " + self._waiting.sentence(had_state=self._answered is not None)
+        return f"Nothing changed: {self._waiting.clause(self._answered is not None)}."
 
     def _change_parameters(self, scenario):
         with self._lock:

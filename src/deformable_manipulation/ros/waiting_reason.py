@@ -14,14 +14,14 @@ class WaitingReason:
     def _keep(self, message):
         self._text = message.data
 
-    def sentence(self, had_state):
-        """A sentence that says why there is no state to act on.
+    def clause(self, had_state):
+        """A clause that says why there is no state to act on.
 
         Args:
             had_state: whether there was one that could not be used.
         """
         if self._text:
-            return f"The simulator waits for {self._text}."
+            return f"the simulator waits for {self._text}"
         if had_state:
-            return "There is no state that can be used; see controller_state."
-        return "There is no state yet: the simulator is not running, or is still starting."
+            return "there is no state that can be used; see controller_state"
+        return "there is no state yet: the simulator is not running, or is still starting"
