@@ -12,7 +12,8 @@
 namespace deformable_manipulation {
 namespace {
 
-constexpr double kWarningPeriod = 5.0;  // s
+constexpr double kWarningPeriod = 5.0;   // s
+constexpr double kOverrunPeriod = 60.0;  // s
 
 // States kept for a subscriber that is slow for a moment: a recorder must not lose any.
 constexpr int kQueue = 100;
@@ -230,9 +231,10 @@ void Simulator::awaitTick() {
     ++overruns_;
     diagnostics_.countOverrun();
     next_tick_ = SteadyClock::now();
-    ROS_WARN_THROTTLE(kWarningPeriod,
-                      "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.", overruns_,
-                      published_, 1e3 * scenario_.clock.cycleTime());
+    ROS_WARN_THROTTLE(kOverrunPeriod,
+                      "%s: Overruns: %ld of %ld cycles took longer than %.1f ms. This machine is too slow for the run: "
+                      "lower controller.rate, or use lockstep:=true.",
+                      ros::this_node::getName().c_str(), overruns_, published_, 1e3 * scenario_.clock.cycleTime());
   }
   ros::getGlobalCallbackQueue()->callAvailable();
   for (SteadyClock::time_point now = SteadyClock::now(); ros::ok() && now < next_tick_; now = SteadyClock::now()) {
