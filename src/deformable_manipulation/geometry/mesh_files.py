@@ -7,6 +7,7 @@ from typing import Any, Dict, Tuple
 
 import numpy as np
 
+from deformable_manipulation.system.interruption import check_interruption
 from deformable_manipulation.system.text_files import TextFileError, read_bytes
 
 LARGEST_COORDINATE = 1e6  # m
@@ -62,7 +63,9 @@ def _parsed(path, data: bytes) -> Tuple[np.ndarray, np.ndarray]:
     try:
         import trimesh  # takes long to import, and not every run needs it
     except ImportError as error:
+        check_interruption()
         raise MeshError("{}: meshes need the Python package trimesh".format(path)) from error
+    check_interruption()  # which Trimesh keeps to itself
     suffix = Path(str(path)).suffix.lower().lstrip(".")
     if suffix not in trimesh.available_formats():
         raise MeshError(

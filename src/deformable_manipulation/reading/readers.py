@@ -27,17 +27,26 @@ class Unreadable(Exception):
 
 
 class Report:
-    """Collects problems; knows the lines of the file's keys."""
+    """Collects problems; knows the lines of the file's keys, and the keys that ``--set`` gave."""
 
-    def __init__(self, lines: Optional[Mapping[Tuple[str, ...], int]] = None):
+    def __init__(
+        self,
+        lines: Optional[Mapping[Tuple[str, ...], int]] = None,
+        overridden: Iterable[Tuple[str, ...]] = (),
+    ):
         self.problems: List[Problem] = []
         self._lines = lines or {}
+        self._overridden = tuple(overridden)
 
     def add(self, path: Sequence[str], message: str, value: str = "") -> None:
         """Report a problem of the key at ``path``."""
-        line = self._lines.get(tuple(path))
+        path = tuple(path)
+        line = self._lines.get(path)
         # File names in messages may hold anything, line breaks included.
-        self.problems.append(Problem(".".join(path), " ".join(message.split()), value, line))
+        message = " ".join(message.split())
+        if any(path[: len(given)] == given for given in self._overridden):
+            message += " (given by --set)"
+        self.problems.append(Problem(".".join(path), message, value, line))
 
 
 @dataclasses.dataclass(frozen=True)
