@@ -51,7 +51,7 @@ void PlanarLocalMinima::collectOnSegment(int i, double limit) {
     const double squared = region_.tree().limitFor(limit * limit, segment.middle);
     region_.tree().visitNear(SegmentBound(segment), squared, [&](const EdgeGroup& group) {
       for (int edge : group.index) {
-        parameters_.push_back(segment.parameter(segment.along(region_.ring().edge(edge).start)));
+        parameters_.push_back(segment.parameter(segment.along(region_.boundary().edge(edge).start)));
       }
     });
   }

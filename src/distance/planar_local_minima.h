@@ -15,7 +15,7 @@ namespace distance {
 class PlanarLocalMinima {
  public:
   PlanarLocalMinima(PlanarRegion& region, PlanarPolyline& polyline)
-      : region_(region), polyline_(polyline), extrema_(region.ring(), region.tree()) {}
+      : region_(region), polyline_(polyline), extrema_(region.boundary(), region.tree()) {}
 
   //! Appends those whose signed distance is at most `limit` [m].
   void find(const PlanarCopy& line, double limit, std::vector<MaterialPoint>* found);

@@ -32,7 +32,7 @@ void SegmentExtrema::find(const Segment2& segment, const InsidePart& part, doubl
     near_.clear();
     tree_.visitNear(SegmentBound(piece), tree_.limitFor(ceiling * ceiling, piece.middle), [&](const EdgeGroup& group) {
       for (int index : group.index) {
-        if (distanceBetween(piece, ring_.edge(index)) <= ceiling) {
+        if (distanceBetween(piece, boundary_.edge(index)) <= ceiling) {
           near_.push_back(index);
         }
       }
@@ -42,7 +42,7 @@ void SegmentExtrema::find(const Segment2& segment, const InsidePart& part, doubl
     if (near_.size() <= kMostEdges || piece.length <= kShortest) {
       sites_.clear();
       for (std::size_t i = 0; i < near_.size() && i < kMostEdges; ++i) {
-        addSites(piece, ring_.edge(near_[i]));
+        addSites(piece, boundary_.edge(near_[i]));
       }
       addEquidistant(piece, ceiling, range.first, range.last - range.first, parameters);
     } else {
@@ -56,8 +56,8 @@ void SegmentExtrema::find(const Segment2& segment, const InsidePart& part, doubl
 //! An upper bound [m]: an edge's distance is convex along the piece.
 double SegmentExtrema::highestDepth(const Segment2& piece) const {
   const NearestEdge first = tree_.nearest(piece.start, 0), last = tree_.nearest(piece.end, first.edge);
-  return std::sqrt(std::min(std::max(first.squared, ring_.edge(first.edge).squaredDistance(piece.end)),
-                            std::max(last.squared, ring_.edge(last.edge).squaredDistance(piece.start))));
+  return std::sqrt(std::min(std::max(first.squared, boundary_.edge(first.edge).squaredDistance(piece.end)),
+                            std::max(last.squared, boundary_.edge(last.edge).squaredDistance(piece.start))));
 }
 
 //! The squared distances to an edge's line and first corner along a piece.

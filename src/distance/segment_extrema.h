@@ -7,14 +7,14 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Every place where the depth of segments inside a ring can have a local maximum.
+//! Every place where the depth of segments inside a boundary can have a local maximum.
 //!
 //! These are where a piece of a segment is equally far from two edges that can be the nearest there, or nearest to
 //! one. An edge counts as its line and its first corner: squared distances to both are quadratic in the parameter.
 //! Pieces with many such edges are halved.
 class SegmentExtrema {
  public:
-  SegmentExtrema(const PlanarRing& ring, const EdgeTree& tree) : ring_(ring), tree_(tree) {}
+  SegmentExtrema(const PlanarBoundary& boundary, const EdgeTree& tree) : boundary_(boundary), tree_(tree) {}
 
   //! Appends parameters on a part of a segment inside. Between two neighbouring ones the depth is monotonic where it
   //! is more than `floor` [m], to 1e-10 m.
@@ -32,7 +32,7 @@ class SegmentExtrema {
   void addEquidistant(const Segment2& piece, double ceiling, double first, double scale,
                       std::vector<double>* parameters) const;
 
-  const PlanarRing& ring_;
+  const PlanarBoundary& boundary_;
   const EdgeTree& tree_;
   std::vector<InsidePart> pieces_;
   std::vector<int> near_;

@@ -81,13 +81,18 @@ def warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
         yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
             scenario.name, file_name
         )
+    yield from scenario.object.warnings()
     yield from MinimumDistance(scenario.obstacles, scenario.object.margin).warnings
 
 
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
-        shape = "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+        shape = "polygon of {} points{}, plane {}".format(
+            sum(map(len, spec.rings)),
+            " in {} rings".format(len(spec.rings)) if len(spec.rings) > 1 else "",
+            spec.plane,
+        )
     else:
         scale = " x ".join("{:g}".format(s) for s in spec.scale)
         shape = "mesh {}, scale {}".format(spec.mesh, scale)

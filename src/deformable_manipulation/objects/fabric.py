@@ -4,7 +4,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
@@ -62,12 +62,17 @@ class FabricSpec(ObjectSpec):
         default_text="at the origin, in the xy plane",
         native=True,
     )
+    mended: Tuple[str, ...] = dataclasses.field(default=(), compare=False, repr=False)
 
     type = "fabric"
     jacobian = "perturbed_copies"
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"
+
+    def warnings(self) -> Iterator[str]:
+        """See :meth:`.ObjectSpec.warnings`."""
+        return ("object.mesh: " + each for each in self.mended)
 
     @property
     def particles(self) -> int:
@@ -161,6 +166,7 @@ class FabricSpec(ObjectSpec):
     def to_mapping(self) -> Dict[str, Any]:
         """The section ``object`` as plain values, with the mesh inline."""
         mapping = super().to_mapping()
+        del mapping["mended"]
         mesh = {key: mapping.pop(key) for key in ("vertices", "triangles")}
         return {"type": mapping.pop("type"), "mesh": mesh, **mapping}
 
@@ -206,7 +212,7 @@ def read_fabric(node: Node) -> FabricSpec:
     if len(parts) < len(FABRIC.fields):
         raise Unreadable
     material = {key: value for key, value in parts.items() if key not in _SHAPE}
-    fabric = FabricSpec(vertices=mesh.vertices, triangles=mesh.triangles, **material)
+    fabric = FabricSpec(mesh.vertices, mesh.triangles, mended=mesh.warnings, **material)
     _check_body(node, fabric)
     return fabric
 

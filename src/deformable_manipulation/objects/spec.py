@@ -1,7 +1,7 @@
 """What every kind of object has."""
 
 from abc import ABC, abstractmethod
-from typing import Any, Callable, ClassVar, Dict, Optional, Tuple
+from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
@@ -25,6 +25,10 @@ class ObjectSpec(ABC):
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]
+
+    def warnings(self) -> Iterator[str]:
+        """What was mended when it was read."""
+        return iter(())
 
     @property
     @abstractmethod

@@ -128,4 +128,6 @@ def _corners(obstacle):
         turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
         return scaled_mesh(obstacle)[0] @ turn + np.array(obstacle.translation)
     frame = PlaneFrame(obstacle.plane, obstacle.rotation)
-    return frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
+    return frame.lift(np.concatenate([np.array(ring) for ring in obstacle.rings])) + np.array(
+        obstacle.translation
+    )
