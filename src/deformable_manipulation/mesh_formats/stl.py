@@ -17,8 +17,9 @@ def read(data: bytes) -> RawMesh:
     """
     room = (len(data) - _HEADER) // _TRIANGLE.itemsize
     told = int(np.frombuffer(data[80:84], dtype="<u4")[0]) if len(data) >= _HEADER else -1
-    is_text = data[:512].lstrip().lower().startswith(b"solid") and told != room
-    if is_text:
+    # Headers of binary files may begin with 'solid', too; texts hold no zero bytes.
+    begin = data[:512]
+    if begin.lstrip().lower().startswith(b"solid") and b"\0" not in begin:
         corners = _text_corners(data)
     elif told < 0:
         raise FormatError(

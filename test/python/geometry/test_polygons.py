@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from deformable_manipulation.geometry.polygon_files import read_rings
-from deformable_manipulation.geometry.polygons import PolygonError, check_ring, check_rings
+from deformable_manipulation.geometry.polygons import PolygonError, check_ring
 
 TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
 
