@@ -15,7 +15,7 @@ from deformable_manipulation.mesh_formats import (
     stl,
     three_mf,
 )
-from deformable_manipulation.mesh_formats.faces import FormatError, RawMesh
+from deformable_manipulation.mesh_formats.faces import FormatError, RawMesh, without_collapsed
 from deformable_manipulation.mesh_formats.packed import unpacked
 from deformable_manipulation.system.text_files import TextFileError, read_bytes
 
@@ -71,7 +71,8 @@ def read_mended_mesh(path, origin: Sequence[float] = _NO_ORIGIN) -> MendedMesh:
     if not data:
         raise MeshError("{} is empty".format(path))
     try:
-        raw = _parsed(str(path), data)
+        with np.errstate(all="ignore"):  # coordinates that are no numbers are refused below
+            raw = _parsed(str(path), data)
     except FormatError as error:
         raise MeshError("{}: {}".format(path, " ".join(str(error).split()))) from error
     except Exception as error:  # a broken file may break a rule that no reader thought of
@@ -145,7 +146,7 @@ def _merged(vertices: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np
     order = np.argsort(first, kind="stable")
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
-    return np.ascontiguousarray(vertices[first[order]]), rank[same_as][triangles]
+    return np.ascontiguousarray(vertices[first[order]]), without_collapsed(rank[same_as][triangles])
 
 
 def _distinct(rows: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:

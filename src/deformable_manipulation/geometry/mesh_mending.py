@@ -130,7 +130,7 @@ def _corners_on_edges(
     edges, corners = _near_edges(vertices, starts, ends, rim, tolerance)
     step = vertices[ends[edges]] - vertices[starts[edges]]
     arm = vertices[corners] - vertices[starts[edges]]
-    length = np.linalg.norm(step, axis=1)
+    length = np.maximum(np.linalg.norm(step, axis=1), tolerance)
     along = np.einsum("ij,ij->i", arm, step) / length
     aside = np.linalg.norm(arm - (along / length)[:, None] * step, axis=1)
     within = (aside <= tolerance) & (along > tolerance) & (along < length - tolerance)
