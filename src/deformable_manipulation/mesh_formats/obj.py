@@ -1,5 +1,6 @@
 """Wavefront OBJ."""
 
+import re
 from typing import List
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from deformable_manipulation.mesh_formats.faces import FormatError, RawMesh, triangulated
 from deformable_manipulation.mesh_formats.numbers_in_text import decoded, shown, vertices_of
 
+_INDEX = re.compile(r"[+-]?[0-9]+(/|$)")
 _NOT_YET = "line {}: a face names vertex {}, and only {} vertices stand before it"
 _ABSENT = "line {}: a face names vertex {}, and there are {} vertices"
 
@@ -52,22 +54,18 @@ def _corners(words: List[str], known: int, line: int) -> List[int]:
 
     A negative index counts back from the line: -1 is the last of the ``known`` vertices.
     """
-    face = []
-    for word in words:
-        try:
-            index = int(word.partition("/")[0])
-        except ValueError:
-            raise FormatError(
-                "line {}: {} is no corner of a face".format(line, shown(word))
-            ) from None
-        if index == 0:
-            raise FormatError(
-                "line {}: a face names vertex 0; OBJ counts vertices from 1".format(line)
-            )
-        if -index > known:
-            raise FormatError(_NOT_YET.format(line, index, known))
-        face.append(index - 1 if index > 0 else known + index)
-    return face
+    try:
+        indices = [int(word.partition("/")[0]) for word in words]
+    except ValueError:
+        wrong = next(word for word in words if not _INDEX.match(word))
+        raise FormatError("line {}: {} is no corner of a face".format(line, shown(wrong))) from None
+    if indices and min(indices) > 0:
+        return [index - 1 for index in indices]
+    if 0 in indices:
+        raise FormatError("line {}: a face names vertex 0; OBJ counts vertices from 1".format(line))
+    if indices and -min(indices) > known:
+        raise FormatError(_NOT_YET.format(line, min(indices), known))
+    return [index - 1 if index > 0 else known + index for index in indices]
 
 
 def _without_faces(kinds: set) -> str:

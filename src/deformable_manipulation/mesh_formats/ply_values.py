@@ -91,7 +91,33 @@ class TextValues:
         rows = [row for _, row in zip(range(count), self._rows)]
         if len(rows) < count:
             raise EOFError(len(rows))
+        alike = _alike_columns([words for _, words in rows], kinds)
+        if alike:
+            return alike
         return _columns([_item(words, kinds, number) for number, words in rows], kinds)
+
+
+def _alike_columns(rows: Sequence[List[str]], kinds: Sequence[Kind]) -> List[Column]:
+    """The columns of rows that all look like the first; none where some do not."""
+    if not rows or any(len(words) != len(rows[0]) for words in rows):
+        return []
+    try:
+        lengths = [len(values) for values in _item(rows[0], kinds, 0)]
+        table = np.array(rows, dtype=float)
+    except (ValueError, FormatError):
+        return []
+    columns: List[Column] = []
+    at = 0
+    for length, (_, length_kind) in zip(lengths, kinds):
+        if length_kind:
+            if (table[:, at] != length).any():
+                return []
+            columns.append((table[:, at], table[:, at + 1 : at + 1 + length].reshape(-1)))
+            at += 1 + length
+        else:
+            columns.append(table[:, at])
+            at += 1
+    return columns
 
 
 def _item(words: List[str], kinds: Sequence[Kind], line: int) -> List[List[float]]:
