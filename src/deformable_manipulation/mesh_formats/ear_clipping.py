@@ -36,9 +36,9 @@ def ear_clipped(corners: np.ndarray) -> np.ndarray:
     while len(left) > 3:
         at = _next_ear(flat, left, at)
         ear = (left[at - 1], left[at], left[(at + 1) % len(left)])
-        triangles.append(ear if _are_apart(flat, *ear) else _NO_TRIANGLE)
+        triangles.append(ear if _are_apart(corners, *ear) else _NO_TRIANGLE)
         del left[at]
-    triangles.append(tuple(left) if _are_apart(flat, *left) else _NO_TRIANGLE)
+    triangles.append(tuple(left) if _are_apart(corners, *left) else _NO_TRIANGLE)
     return np.array(triangles)
 
 
@@ -104,8 +104,7 @@ def _aside(start: np.ndarray, end: np.ndarray, points: np.ndarray) -> np.ndarray
     return step[0] * (points[:, 1] - start[1]) - step[1] * (points[:, 0] - start[0])
 
 
-def _are_apart(flat: np.ndarray, a: int, b: int, c: int) -> bool:
-    """Whether three corners are at three places."""
-    return not (
-        (flat[a] == flat[b]).all() or (flat[b] == flat[c]).all() or (flat[c] == flat[a]).all()
-    )
+def _are_apart(corners: np.ndarray, *three: int) -> bool:
+    """Whether three of the corners are at three places."""
+    a, b, c = corners[list(three)]
+    return not ((a == b).all() or (b == c).all() or (c == a).all())

@@ -101,6 +101,8 @@ def _property(words: List[str]) -> _Property:
 def _read_element(values: Union[BinaryValues, TextValues], element: _Element) -> Dict[str, Any]:
     """The properties by name: values (N,), of lists lengths (N,) and values (sum of lengths,)."""
     kinds = [(each.type, each.count_type) for each in element.properties]
+    if not kinds:
+        return {}
     try:
         columns = values.read(element.size, kinds)
     except EOFError as error:

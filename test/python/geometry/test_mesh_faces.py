@@ -249,6 +249,19 @@ def test_reasons_of_ply(write, part, wrong, reason):
         read_mesh(write(ply_text().replace(part, wrong, 1), "mesh.ply"))
 
 
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
+def test_headers_that_promise_more_than_there_can_be(write, form):
+    header = ply_header(form).replace("end_header", "element nothing 999999999999\nend_header")
+    with pytest.raises(MeshError, match="the file ends in element 'face' 0 of 999999999999"):
+        text = header.replace("face 8", "face 999999999999").replace("vertex 12", "vertex 0")
+        read_mesh(write(text, "mesh.ply"))
+
+
+def test_corners_that_hide_one_another_in_the_plane_of_their_face():
+    vertices = np.array([(0, 0, 0), (0, -1, 0), (-1, -1, -1), (0, -1, -1)], dtype=float)
+    assert len(triangulated(vertices, np.array([4]), np.arange(4))) == 2
+
+
 def test_a_binary_ply_that_is_cut_off(write):
     content = ply_bytes("<", "binary_little_endian")
     with pytest.raises(MeshError, match="the file ends in element 'face' 7 of 8; it is cut off"):
