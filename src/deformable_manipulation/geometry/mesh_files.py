@@ -8,7 +8,6 @@ import numpy as np
 from deformable_manipulation.geometry.mesh_mending import MendedMesh, mended, without_unused
 from deformable_manipulation.mesh_formats import (
     collada,
-    gltf,
     library,
     obj,
     off,
@@ -24,15 +23,13 @@ LARGEST_COORDINATE = 1e6  # m
 LARGEST_FILE = 1_000_000_000  # bytes, some million triangles in the most verbose format
 FORMATS = "OBJ, PLY, STL, OFF, COLLADA (.dae), 3MF, glTF and GLB, also packed as .gz or .zip"
 _NO_ORIGIN = (0.0, 0.0, 0.0)
-_READERS: Dict[str, Callable[[bytes, str], RawMesh]] = {
-    "obj": lambda data, path: obj.read(data),
-    "off": lambda data, path: off.read(data),
-    "ply": lambda data, path: ply.read(data),
-    "stl": lambda data, path: stl.read(data),
-    "dae": lambda data, path: collada.read(data),
-    "3mf": lambda data, path: three_mf.read(data, LARGEST_FILE),
-    "gltf": gltf.read,
-    "glb": gltf.read,
+_READERS: Dict[str, Callable[[bytes], RawMesh]] = {
+    "obj": obj.read,
+    "off": off.read,
+    "ply": ply.read,
+    "stl": stl.read,
+    "dae": collada.read,
+    "3mf": lambda data: three_mf.read(data, LARGEST_FILE),
 }
 
 
@@ -108,7 +105,7 @@ def _parsed(path: str, data: bytes) -> RawMesh:
     name, data = unpacked(path, data, LARGEST_FILE, _is_mesh)
     suffix = _suffix(name)
     if suffix in _READERS:
-        return _READERS[suffix](data, path)
+        return _READERS[suffix](data)
     if suffix not in library.formats():
         text = "'{}' is no format of meshes that can be read; formats allowed: {}"
         raise FormatError(text.format(suffix, FORMATS))
@@ -120,7 +117,7 @@ def _suffix(name: str) -> str:
 
 
 def _is_mesh(name: str) -> bool:
-    return _suffix(name) in _READERS
+    return _suffix(name) in (*_READERS, "gltf", "glb")
 
 
 def _fault(vertices: np.ndarray, triangles: np.ndarray, origin: np.ndarray) -> str:

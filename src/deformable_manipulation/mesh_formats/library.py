@@ -1,7 +1,8 @@
-"""The other formats that Trimesh reads."""
+"""glTF, GLB and the other formats that Trimesh reads."""
 
 import contextlib
 import io
+import json
 import logging
 import warnings
 from typing import Any, Dict
@@ -11,6 +12,9 @@ import numpy as np
 from deformable_manipulation.mesh_formats.faces import FormatError, RawMesh
 
 _SETTINGS: Dict[str, Any] = dict(process=False, maintain_order=True, skip_materials=True)
+_BINARY_MARK = b"glTF"
+_VERSION_2 = b"\2\0\0\0"
+_PACKED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization")
 
 
 def formats():
@@ -30,6 +34,8 @@ def read(data: bytes, suffix: str, path: str) -> RawMesh:
         FormatError: with what is wrong.
     """
     trimesh = _trimesh()
+    if suffix in ("gltf", "glb"):
+        _check_gltf(data, suffix)
     resolver = trimesh.resolvers.FilePathResolver(path)
     try:
         with _silence():
@@ -64,3 +70,24 @@ def _silence():
             yield
     finally:
         logger.disabled = was_disabled
+
+
+def _check_gltf(data: bytes, suffix: str) -> None:
+    """Refuse what Trimesh would read wrongly, or fail on without a reason."""
+    text = data
+    if suffix == "glb":
+        if data[:4] != _BINARY_MARK:
+            raise FormatError("it is no GLB file, which begins with 'glTF'")
+        if data[4:8] != _VERSION_2:
+            raise FormatError("it is not of glTF version 2; export it as that")
+        text = data[20 : 20 + int.from_bytes(data[12:16], "little")]
+    try:
+        document = json.loads(text.decode("utf-8-sig"))
+        version = str(document.get("asset", {}).get("version", ""))
+    except (ValueError, AttributeError) as error:
+        raise FormatError("its JSON is broken: {}".format(error)) from None
+    if not version.startswith("2"):
+        raise FormatError("it is of glTF version {!r}; export it as version 2".format(version))
+    packed = [name for name in _PACKED if name in document.get("extensionsRequired", ())]
+    if packed:
+        raise FormatError("it uses {}; export it without".format(", ".join(packed)))

@@ -72,7 +72,7 @@ def test_scale_of_an_obstacle(write):
         ("garbage", "mesh.ply", "no PLY file, which begins with a line 'ply'"),
         ("garbage", "mesh.off", "line 1: 'garbage' is no header of an OFF file"),
         ("garbage", "mesh.glb", "no GLB file, which begins with 'glTF'"),
-        ("garbage", "mesh.gltf", "and no JSON: Expecting value: line 1"),
+        ("garbage", "mesh.gltf", "its JSON is broken"),
         ("garbage", "mesh.dae", "it is no XML"),
         ("garbage", "mesh.3mf", "it is no ZIP archive"),
         ("garbage", "mesh.obj.gz", "it is no gzip file"),
