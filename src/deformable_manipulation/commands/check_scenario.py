@@ -97,7 +97,11 @@ def _parser() -> argparse.ArgumentParser:
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
-        shape = "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+        shape = "polygon of {} points{}, plane {}".format(
+            sum(map(len, spec.rings)),
+            " in {} rings".format(len(spec.rings)) if len(spec.rings) > 1 else "",
+            spec.plane,
+        )
     else:
         scale = " x ".join("{:g}".format(s) for s in spec.scale)
         shape = "mesh {}, scale {}".format(spec.mesh, scale)

@@ -54,6 +54,7 @@ class Node:
     """A raw value, the path of its key and where relative file names start.
 
     ``files_are_read``: the files that it names have been read and found right already.
+    ``section``: the mapping, or list, that it is an item of.
     """
 
     value: Any
@@ -61,10 +62,13 @@ class Node:
     report: Report
     directory: Path
     files_are_read: bool = False
+    section: Any = None
 
     def child(self, key, value) -> "Node":
         """The node of an item of this one."""
-        return dataclasses.replace(self, value=value, path=self.path + (key_text(key),))
+        return dataclasses.replace(
+            self, value=value, path=self.path + (key_text(key),), section=self.value
+        )
 
     def fail(self, message: str) -> NoReturn:
         """Report this node's value as wrong and raise Unreadable."""
@@ -92,7 +96,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return " did you mean '{}'?".format(matches[0]) if matches else ""
 
 
-def _to_float(value) -> Optional[float]:
+def to_float(value) -> Optional[float]:
     """The value as a float, None where it is no number; a number in a string is one."""
     if isinstance(value, bool) or not isinstance(value, (numbers.Real, str)):
         return None
@@ -145,7 +149,7 @@ class Number:
         return " and".join(bounds)
 
     def __call__(self, node: Node) -> float:
-        number = _to_float(node.value)
+        number = to_float(node.value)
         if number is None or not math.isfinite(number) or not self._within(number):
             node.fail("must be {}".format(self.allowed))
         return number
@@ -170,7 +174,7 @@ class Integer:
         self.allowed = "a whole number from {} to {}".format(at_least, at_most)
 
     def __call__(self, node: Node) -> int:
-        number = _to_float(node.value)
+        number = to_float(node.value)
         if (
             number is None
             or not self._at_least <= number <= self._at_most

@@ -50,6 +50,30 @@ def test_surfaces_without_an_inside_are_told(path, mapping, capsys):
     assert "WARNING: obstacle 'sheet': " in output.err and "no sign" in output.err
 
 
+TORN = (
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 1 0\n"
+    "f 1 2 3\nf 1 3 4\nf 2 6 5\nf 5 6 7\nf 5 7 3\n"
+)
+
+
+def test_triangles_that_were_split_are_told(fabric_mapping, tmp_path, capsys):
+    (tmp_path / "torn.obj").write_text(TORN)
+    path = tmp_path / "small.yaml"
+    del fabric_mapping["object"]["size"], fabric_mapping["object"]["resolution"]
+    fabric_mapping["object"]["mesh"] = "torn.obj"
+    fabric_mapping["agents"]["helper"]["particle"] = 1
+    fabric_mapping["obstacles"] = [
+        {"name": "sheet", "mesh": "torn.obj", "translation": [0.0, 0.0, -9.0]}
+    ]
+    path.write_text(yaml.safe_dump(fabric_mapping))
+    assert main([str(path)]) == 0
+    output = capsys.readouterr()
+    told = "1 place where a vertex lies on the edge of a triangle that does not have it"
+    assert "WARNING: object.mesh: " + told in output.err
+    assert "WARNING: obstacle 'sheet': " + told in output.err
+    assert "(1, 0.5, 0)" in output.err and "6 triangles" in output.out
+
+
 def test_material_of_a_fabric(fabric_mapping, tmp_path, capsys):
     path = tmp_path / "small.yaml"
     path.write_text(yaml.safe_dump(fabric_mapping))
