@@ -18,7 +18,7 @@ void Features::take(const distance::Distances& distances, int agents, bool neare
     obstacle_velocity.push_back(distances.features[m].obstacle_velocity);
     identity.push_back(distances.features[m].identity);
   }
-  unmodelled.assign(count, 0.0);
+  disturbance.assign(count, 0.0);
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());
 }
 

@@ -47,7 +47,7 @@ TeamController::TeamController(const ControllerParameters& p)
       barriers_(makeBarriers(p)),
       velocities_(1e-4, p.timeout),
       differences_(p.team.agents, p.team.leader),
-      unmodelled_(p.surprise_filter),
+      disturbances_(p.disturbance_filter),
       filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
   present_.positions.resize(p.team.agents);
   for (const int agent : p.team.commanded) {
@@ -78,7 +78,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
   filter_.setWeights(p.weights.replicate(p.team.commanded.size(), 1));
   parameters_ = std::move(p);
   barriers_ = std::move(barriers);
-  unmodelled_.setTimeConstant(parameters_.surprise_filter);
+  disturbances_.setTimeConstant(parameters_.disturbance_filter);
   setSmoothing();
 }
 
@@ -100,7 +100,7 @@ void TeamController::reset() {
 void TeamController::forget() {
   velocities_.reset();
   differences_.reset();
-  unmodelled_.reset();
+  disturbances_.reset();
   stop();
   answered_ = false;
 }
@@ -216,7 +216,7 @@ void TeamController::describe(const ObservationView& observation) {
 
 void TeamController::decide(const ObservationView& observation) {
   const bool usable = findGradients(observation);
-  unmodelled_.update(observation.time, moved_, features_);
+  disturbances_.update(observation.time, moved_, features_);
   if (parameters_.safety && features_.size() > 0 && !usable) {
     return;
   }

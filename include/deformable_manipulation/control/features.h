@@ -31,7 +31,7 @@ class Features {
   std::vector<Vector3> normal;             //!< [M] unit vector along which the distance grows fastest
   std::vector<Vector3> obstacle_velocity;  //!< [M] m/s
   std::vector<std::int64_t> identity;      //!< [M] the same from state to state; -1: none
-  std::vector<double> unmodelled;          //!< [M] m/s, see UnmodelledRates; 0 unless they are in use
+  std::vector<double> disturbance;         //!< [M] m/s, see DisturbanceObserver; 0 unless it is in use
 
  private:
   int agents_ = 0;

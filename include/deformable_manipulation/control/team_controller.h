@@ -8,10 +8,10 @@
 #include "deformable_manipulation/control/controller_parameters.h"
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
+#include "deformable_manipulation/control/disturbance_observer.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
 #include "deformable_manipulation/control/safety_filter.h"
-#include "deformable_manipulation/control/unmodelled_rates.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
 namespace deformable_manipulation {
@@ -103,7 +103,7 @@ class TeamController {
   std::vector<std::unique_ptr<Barrier>> barriers_;
   VelocityEstimator velocities_;
   Differences differences_;
-  UnmodelledRates unmodelled_;
+  DisturbanceObserver disturbances_;
   SafetyFilter filter_;
 
   std::vector<Member> members_;

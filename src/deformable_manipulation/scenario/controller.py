@@ -141,14 +141,15 @@ class _ControllerKeys:
         live=Live(("smoothing",), 0.0, 10.0),
         native=True,
     )
-    surprise_filter: float = parameter(
+    disturbance_filter: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
-        "Time constant of the filter that finds at what rate a distance falls without being moved: "
-        "the object swings, lags behind or is of another material, or nobody tells the obstacle's "
-        "velocity. The rows count with that rate. 0 switches it off.",
+        "Time constant of the disturbance observer. It measures how fast a distance falls beyond "
+        "what the gradients and known velocities explain: the object swings, lags behind or is of "
+        "another material, or nobody tells the obstacle's velocity. The rows count with that rate. "
+        "Raise it for noisy poses; 0 switches it off.",
         default=0.1,
         paper=0.0,
-        live=Live(("surprise_filter",), 0.0, 10.0),
+        live=Live(("disturbance_filter",), 0.0, 10.0),
         native=True,
     )
     perturbation: Vector = parameter(

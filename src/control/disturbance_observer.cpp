@@ -1,4 +1,4 @@
-#include "deformable_manipulation/control/unmodelled_rates.h"
+#include "deformable_manipulation/control/disturbance_observer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,11 @@ double modelledRate(const Features& features, int feature, const std::vector<Vec
 
 }  // namespace
 
-void UnmodelledRates::setTimeConstant(double time_constant) { time_constant_ = time_constant; }
+void DisturbanceObserver::setTimeConstant(double time_constant) { time_constant_ = time_constant; }
 
-void UnmodelledRates::reset() { last_.clear(); }
+void DisturbanceObserver::reset() { last_.clear(); }
 
-void UnmodelledRates::update(double time, const std::vector<Vector3>& velocities, Features& features) {
+void DisturbanceObserver::update(double time, const std::vector<Vector3>& velocities, Features& features) {
   if (time_constant_ == 0.0) {
     return;
   }
@@ -36,10 +36,10 @@ void UnmodelledRates::update(double time, const std::vector<Vector3>& velocities
     if (before != nullptr) {
       const double observed = (features.distance[m] - before->distance) / elapsed;
       const double surprise = observed - modelledRate(features, m, velocities);
-      features.unmodelled[m] = before->rate + taken * (surprise - before->rate);
+      features.disturbance[m] = before->rate + taken * (surprise - before->rate);
     }
     if (features.identity[m] != NOT_FOLLOWED) {
-      now_.push_back({features.identity[m], features.distance[m], features.unmodelled[m]});
+      now_.push_back({features.identity[m], features.distance[m], features.disturbance[m]});
     }
   }
   std::sort(now_.begin(), now_.end(), [](const Followed& a, const Followed& b) { return a.identity < b.identity; });
@@ -47,7 +47,7 @@ void UnmodelledRates::update(double time, const std::vector<Vector3>& velocities
   time_ = time;
 }
 
-const UnmodelledRates::Followed* UnmodelledRates::find(std::int64_t identity) const {
+const DisturbanceObserver::Followed* DisturbanceObserver::find(std::int64_t identity) const {
   const auto found =
       std::lower_bound(last_.begin(), last_.end(), identity,
                        [](const Followed& followed, std::int64_t sought) { return followed.identity < sought; });
