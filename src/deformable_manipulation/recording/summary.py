@@ -133,8 +133,9 @@ def _outcome_lines(summary: dict) -> List[str]:
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))
-    if summary["start"] != "stable":
-        lines.append("WARNING: {}".format(_UNSTABLE_STARTS[summary["start"]]))
+    start = summary.get("start")  # which bags do not tell
+    if start in _UNSTABLE_STARTS:
+        lines.append("WARNING: {}".format(_UNSTABLE_STARTS[start]))
     if not summary["shape_valid"]:
         lines.append(
             "WARNING: the object was stretched or squeezed by up to {:.1f} %; beyond {:.1f} % its "
