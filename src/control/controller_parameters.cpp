@@ -40,6 +40,7 @@ ControllerParameters ControllerParameters::read(const ParameterSection& controll
   p.weights = controller.vector<3>("weights");
   p.max_velocity = controller.number("max_velocity");
   p.max_acceleration = controller.number("max_acceleration");
+  p.max_jerk = controller.number("max_jerk");
   p.smoothing = controller.number("smoothing");
   p.disturbance_filter = controller.number("disturbance_filter");
   p.timeout = controller.number("timeout");

@@ -51,7 +51,7 @@ TeamController::TeamController(const ControllerParameters& p)
       filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
   present_.positions.resize(p.team.agents);
   for (const int agent : p.team.commanded) {
-    members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
+    members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
   }
   setSmoothing();
   decisions_.resize(members_.size());
@@ -124,15 +124,25 @@ bool TeamController::isAnswered(double time) {
 
 const std::vector<Decision>& TeamController::wait() {
   clearDecisions();
-  stop();
+  for (int i = 0; i < size(); ++i) {
+    decisions_[i].command = slowed(members_[i]);
+    setCommand(decisions_[i].command, members_[i]);
+    members_[i].departure.setZero();
+  }
   return decisions_;
 }
 
 void TeamController::stop() {
   for (Member& member : members_) {
     member.command.setZero();
+    member.acceleration.setZero();
     member.departure.setZero();
   }
+}
+
+void TeamController::setCommand(const Vector3& command, Member& member) const {
+  member.acceleration = (command - member.command) / parameters_.cycle_time;
+  member.command = command;
 }
 
 void TeamController::clearDecisions() {
@@ -153,6 +163,9 @@ const std::vector<Decision>& TeamController::update(const ObservationView& obser
   predict(observation);
   clearDecisions();
   describe(observation);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    decisions_[i].command = slowed(members_[i]);  // unless something else is decided
+  }
   if (std::any_of(members_.begin(), members_.end(), [](const Member& member) { return member.enabled; })) {
     decide(observation);
   }
@@ -167,7 +180,7 @@ void TeamController::conclude() {
       decision.status = Status::DISABLED;
       members_[i].departure.setZero();
     }
-    members_[i].command = decision.command;
+    setCommand(decision.command, members_[i]);
   }
 }
 
@@ -262,20 +275,34 @@ void TeamController::describeGradients() {
   }
 }
 
-//! Velocities that the limits of velocity and acceleration allow in the next cycle: zero for those who are disabled.
+MotionLimits TeamController::motionLimits() const {
+  constexpr double NONE = std::numeric_limits<double>::infinity();
+  const bool limited = parameters_.team.formulation.acceleration_limit;
+  return {parameters_.max_velocity, limited ? parameters_.max_acceleration : NONE,
+          limited ? parameters_.max_jerk : NONE, parameters_.cycle_time};
+}
+
+//! The next command of an assistant on its way to rest.
+Vector3 TeamController::slowed(const Member& member) const {
+  const MotionLimits limits = motionLimits();
+  Vector3 command;
+  for (int axis = 0; axis < 3; ++axis) {
+    command[axis] = limits.slowed(member.command[axis], member.acceleration[axis]);
+  }
+  return command;
+}
+
+//! Velocities that the limits allow in the next cycle: for those who are disabled, the one on their way to rest.
 void TeamController::setBounds() {
-  const double step = parameters_.team.formulation.acceleration_limit
-                          ? parameters_.max_acceleration * parameters_.cycle_time
-                          : std::numeric_limits<double>::infinity();
+  const MotionLimits limits = motionLimits();
   for (int i = 0; i < size(); ++i) {
-    auto lower = lower_.segment<3>(3 * i);
-    auto upper = upper_.segment<3>(3 * i);
-    if (members_[i].enabled) {
-      lower = (members_[i].command.array() - step).cwiseMax(-parameters_.max_velocity);
-      upper = (members_[i].command.array() + step).cwiseMin(parameters_.max_velocity);
-    } else {
-      lower.setZero();
-      upper.setZero();
+    const Member& member = members_[i];
+    const Vector3 slower = slowed(member);
+    for (int axis = 0; axis < 3; ++axis) {
+      const VelocityRange range = member.enabled ? limits.next(member.command[axis], member.acceleration[axis])
+                                                 : VelocityRange{slower[axis], slower[axis]};
+      lower_[3 * i + axis] = range.lower;
+      upper_[3 * i + axis] = range.upper;
     }
   }
 }
@@ -301,7 +328,7 @@ void TeamController::passFiltered() {
   }
   for (int i = 0; i < size(); ++i) {
     const Vector3 nominal = decisions_[i].nominal + kept_ * members_[i].departure;
-    nominal_.segment<3>(3 * i) = members_[i].enabled ? nominal : Vector3(Vector3::Zero());
+    nominal_.segment<3>(3 * i) = members_[i].enabled ? nominal : decisions_[i].command;
   }
   const auto start = std::chrono::steady_clock::now();
   const Filtered& result = filter_.filter(nominal_, rows_, lower_, upper_);
@@ -309,7 +336,9 @@ void TeamController::passFiltered() {
   for (int i = 0; i < size(); ++i) {
     Decision& decision = decisions_[i];
     decision.solve_time = solve_time;
-    decision.command = result.velocity.segment<3>(3 * i);
+    if (result.status != Status::FAILED) {
+      decision.command = result.velocity.segment<3>(3 * i);
+    }
     decision.status = statusOf(result, decision);
     keepDeparture(result.rows_act, decision, members_[i]);
     decision.rows = result.rows;

@@ -149,6 +149,7 @@ Mapping controller(bool exact) {
           {"weights", numbers({1.0, 1.0, 1.0})},
           {"max_velocity", 0.15},
           {"max_acceleration", 1.0},
+          {"max_jerk", 1000.0},
           {"smoothing", 0.0},
           {"disturbance_filter", 0.2},
           {"timeout", 0.2},

@@ -9,7 +9,7 @@ class FaultMinimumDistanceTest(FaultTest):
     def test_killed_and_started_again(self):
         stopped = self.assert_stops(self.kill("minimum_distance"))
         self.assert_waits("no distances for")
-        self.assert_says("assistant_1: Waits, zero velocity: no distances for")
+        self.assert_says("assistant_1: Waits, at rest or slowing down to it: no distances for")
         self.assertTrue(self.velocity(stopped, self.scenario.leader_index).any())
         self.start("minimum_distance")
         self.assert_follows()

@@ -12,7 +12,7 @@ class FaultSimulatorTest(FaultTest):
         killed = self.kill("simulator")
         lost = ["no state for"] if self.one_process else ["no state for", "no distances for"]
         self.assert_waits(*lost)
-        self.assert_says("assistant_1: Waits, zero velocity: no state for")
+        self.assert_says("assistant_1: Waits, at rest or slowing down to it: no state for")
         line = self.log.wait_for(lambda line: "no state for" in line.msg, "the reason")
         self.assertLess((line.header.stamp - killed).to_sec(), self.patience())
         for command in commands.wait_for_more(3):

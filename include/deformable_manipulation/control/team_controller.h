@@ -9,6 +9,7 @@
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
 #include "deformable_manipulation/control/disturbance_observer.h"
+#include "deformable_manipulation/control/motion_limits.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
 #include "deformable_manipulation/control/safety_filter.h"
@@ -43,7 +44,7 @@ class TeamController {
   //! Number M of assistants that it commands; they are numbered in the order of the parameters.
   int size() const { return static_cast<int>(members_.size()); }
 
-  //! False answers every state with zero velocity for this assistant; the others reckon with that.
+  //! False brings this assistant to rest, within its limits, and keeps it there; the others reckon with that.
   void setEnabled(int member, bool enabled) { members_[member].enabled = enabled; }
   bool isEnabled(int member) const { return members_[member].enabled; }
 
@@ -70,17 +71,19 @@ class TeamController {
   //! @return [M] valid until the next call
   const std::vector<Decision>& update(const ObservationView& observation);
 
-  //! All stand still because an input is missing or unusable.
+  //! An input is missing or unusable: all slow down to rest, within their limits, and stand still. Each call is a
+  //! command.
   const std::vector<Decision>& wait();
 
  private:
   void setSmoothing();
 
   struct Member {
-    int agent;          // index
-    Vector3 reference;  // [m]
-    Vector3 command;    // [m/s] the last one, which acts until the next does
-    Vector3 departure;  // [m/s] of it from its nominal velocity, by the rows
+    int agent;             // index
+    Vector3 reference;     // [m]
+    Vector3 command;       // [m/s] the last one, which acts until the next does
+    Vector3 acceleration;  // [m/s^2] from the command before to it
+    Vector3 departure;     // [m/s] of it from its nominal velocity, by the rows
     bool enabled;
   };
 
@@ -93,10 +96,13 @@ class TeamController {
   void decide(const ObservationView& observation);
   bool findGradients(const ObservationView& observation);
   void describeGradients();
+  MotionLimits motionLimits() const;
+  Vector3 slowed(const Member& member) const;
   void setBounds();
   void passUnfiltered();
   void passFiltered();
   void keepDeparture(bool rows_act, const Decision& decision, Member& member) const;
+  void setCommand(const Vector3& command, Member& member) const;
   void conclude();
 
   ControllerParameters parameters_;

@@ -30,7 +30,7 @@ _SENTENCES = {
     Status.CONSTRAINED: "Departs from the nominal velocity so that all constraints hold.",
     Status.RELAXED: "Not all constraints can hold; relaxed in their priority.",
     Status.FAILED: "The quadratic program has no valid solution: zero velocity.",
-    Status.WAITING: "Waits for valid input: zero velocity.",
-    Status.DISABLED: "Switched off: zero velocity.",
+    Status.WAITING: "Waits for valid input, at rest or slowing down to it.",
+    Status.DISABLED: "Switched off, at rest or slowing down to it.",
     Status.UNSAFE_FILTER_OFF: "UNSAFE, the safety filter is off: nominal velocity within limits.",
 }

@@ -60,7 +60,7 @@ class TeamController:
         return tuple(self._members)
 
     def is_enabled(self, name):
-        """Whether an assistant follows; if not, it gets zero velocity, and the others know."""
+        """Whether an assistant follows; if not, it slows down to rest, and the others know."""
         return self._native.is_enabled(self._members[name])
 
     def set_enabled(self, name, enabled):
@@ -117,14 +117,14 @@ class TeamController:
         return self._last
 
     def wait(self, reason):
-        """Stand still because an input is missing or unusable.
+        """Slow down to rest, and stand still, because an input is missing or unusable.
 
         Args:
             reason: a clause that says what is wrong, without a full stop.
 
         Returns:
-            A :class:`~.decision.Decision` with zero velocity and status WAITING for each assistant
-            by its name.
+            A :class:`~.decision.Decision` with status WAITING for each assistant by its name. Each
+            call is one command on the way to rest.
         """
         return self._decisions(self._native.wait(), reason)
 
@@ -181,7 +181,7 @@ class TeamController:
 def _sentence(status, fault, slack):
     """The status in words: what is waited for, and what is relaxed."""
     if status is Status.WAITING:
-        return f"Waits, zero velocity: {fault}."
+        return f"Waits, at rest or slowing down to it: {fault}."
     if status is Status.RELAXED:
         amounts = [f"{name} by {amount:.4f} m/s" for name, amount in slack.items() if amount]
         return f"{status.sentence[:-1]}: {', '.join(amounts)}."

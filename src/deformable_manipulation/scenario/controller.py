@@ -131,6 +131,15 @@ class _ControllerKeys:
         live=Live(("max_acceleration",), 0.01, 20.0),
         native=True,
     )
+    max_jerk: float = parameter(
+        Number("m/s^3", above=0.0, at_most=1e6),
+        "Bound on every component of the change of acceleration from command to command, over the "
+        "cycle time. Use the robot's limit; what its driver makes of steps in the command is in "
+        "[real_robot.md](real_robot.md#what-the-driver-has-to-do-between-commands).",
+        default=1000.0,
+        live=Live(("max_jerk",), 0.1, 1e6),
+        native=True,
+    )
     smoothing: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
         "Time constant with which the departure from the nominal velocity changes where the limits "

@@ -62,6 +62,10 @@ class Alone:
     def take_reference(self, observation):
         self.team.take_reference(self._name, observation)
 
+    def wait(self, reason):
+        """Its Decision where an input is missing."""
+        return self.team.wait(reason)[self._name]
+
     def enable(self, enabled):
         self.team.set_enabled(self._name, enabled)
 

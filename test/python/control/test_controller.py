@@ -372,3 +372,57 @@ def test_refuses_parameters_of_other_agents(scenario):
     controller = build.Alone(scenario)
     with pytest.raises(ValueError, match="other agents"):
         controller.team.set_parameters(build.scenario(assistants=2))
+
+
+def commands_until_rest(controller, slow):
+    """Commands (N, 3) of an assistant that moves, from one call of ``slow`` to the next."""
+    commands = [slow(number) for number in range(100)]
+    rest = next(number for number, command in enumerate(commands) if not command.any())
+    assert not np.any(commands[rest:])
+    return np.array(commands[: rest + 1])
+
+
+def moving(**settings):
+    """A controller whose assistant has come to full speed along z, and its next observations."""
+    scenario = build.scenario(**settings)
+    positions = np.array([agent.start for agent in scenario.agents])
+    positions[0, 2] += 1.0  # the leader is far ahead
+    body = build.hanging_chain(2, 0.5)
+
+    def observation(cycle):
+        return build.observe(0.01 * cycle, positions, body, None, cycle=cycle)
+
+    controller = build.Alone(scenario)
+    controller.take_reference(build.observe(0.0, positions - [[0, 0, 1.0], [0, 0, 0]], body, None))
+    for cycle in range(1, 61):
+        decision = controller.update(observation(cycle))
+    assert decision.command[2] == pytest.approx(0.15)
+    return controller, observation
+
+
+@pytest.mark.parametrize("max_jerk, longest", [(1000.0, 16), (20.0, 22)])
+@pytest.mark.parametrize("cause", ["disabled", "lost"])
+def test_an_assistant_stops_within_its_limits(cause, max_jerk, longest):
+    controller, observation = moving(max_jerk=max_jerk)
+    if cause == "disabled":
+        controller.enable(False)
+        stopping = commands_until_rest(
+            controller, lambda number: controller.update(observation(61 + number)).command
+        )
+    else:
+        stopping = commands_until_rest(controller, lambda number: controller.wait("lost").command)
+    velocities = np.vstack(([0.0, 0.0, 0.15], stopping))
+    accelerations = np.vstack(([0.0, 0.0, 0.0], np.diff(velocities, axis=0) / 0.01))
+    assert np.abs(accelerations).max() <= 1.0 + 1e-9
+    assert np.abs(np.diff(accelerations, axis=0)).max() / 0.01 <= max_jerk + 1e-6
+    assert (velocities[:, 2] >= -1e-9).all() and len(stopping) <= longest
+
+
+def test_speeding_up_keeps_the_limit_of_jerk():
+    controller, observation = moving()
+    for max_jerk in (10.0, 100.0):
+        controller, observation = build.Alone(build.scenario(max_jerk=max_jerk)), observation
+        commands = np.array([controller.update(observation(c)).command for c in range(1, 80)])
+        accelerations = np.diff(np.vstack((np.zeros(3), np.zeros(3), commands)), axis=0) / 0.01
+        assert np.abs(np.diff(accelerations, axis=0)).max() / 0.01 <= max_jerk + 1e-6
+        assert commands[-1, 2] == pytest.approx(0.15)
