@@ -68,6 +68,7 @@ class FabricSpec(ObjectSpec):
 
     type = "fabric"
     jacobian = "perturbed_copies"
+    disturbance_filter = 0.0
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"

@@ -87,6 +87,7 @@ class RodSpec(ObjectSpec):
 
     type = "rod"
     jacobian = "equilibrium"
+    disturbance_filter = 0.1
     has_joints = True
     is_surface = False
     rviz_example = "rope_one_assistant"

@@ -15,6 +15,7 @@ class ObjectSpec(ABC):
     Attributes:
         type: the word that says its kind in the scenario, and in the C++ core.
         jacobian: where its gradients come from, unless the scenario says so.
+        disturbance_filter: time constant [s] of the disturbance observer, likewise.
         has_joints: whether it has joints, which ``simulation.solver`` is for.
         is_surface: whether it is made of triangles, and else a line of its points.
         rviz_example: the scenario whose RViz configuration shows this kind.
@@ -22,6 +23,7 @@ class ObjectSpec(ABC):
 
     type: ClassVar[str]
     jacobian: ClassVar[str]
+    disturbance_filter: ClassVar[float]
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]

@@ -37,6 +37,7 @@ class StateAnswers:
         except ValueError as error:
             node.refuse(f"Parameter {rospy.resolve_name(parameter)}: {error}")
         self._cycles = cycle_monitor(scenario)
+        self._answered_at = 0.0  # [s] of time.perf_counter()
 
     def answer(self, state, distances_of):
         """Command the velocities that answer a state, then report them.
@@ -46,7 +47,7 @@ class StateAnswers:
             distances_of: function without arguments that gives the core's Distances of it; may
                 raise MessageError.
         """
-        started = time.perf_counter()
+        started = self._answered_at = time.perf_counter()
         observation, fault = None, ""
         try:
             distances = distances_of()
@@ -69,7 +70,10 @@ class StateAnswers:
             team.report(state, observation, decided)
 
     def watch(self, fault, newest_state):
-        """From now on, let assistants stand still while inputs are lost, and say how all fare.
+        """From now on, slow assistants down while inputs are lost, and say how all fare.
+
+        They get a command per cycle then, as their limits of acceleration count from one to the
+        next.
 
         Args:
             fault: function without arguments: a clause that says what is lost, or nothing.
@@ -78,7 +82,8 @@ class StateAnswers:
 
         def check():
             lost, state = fault(), newest_state()
-            if lost and state is not None:
+            unanswered = time.perf_counter() - self._answered_at >= self._scenario.cycle_time
+            if lost and state is not None and unanswered:
                 self._send(state, None, self._decide(state, None, lost))
 
         reports = {"cycle": self._cycles.report, "inputs": lambda: input_report(fault())}
@@ -86,7 +91,7 @@ class StateAnswers:
             reports.update(team.reports)
         publish_diagnostics(reports)
         if not self._lockstep:  # there everybody waits for everybody
-            node.every(0.5 * self._scenario.controller.timeout, check)
+            node.every(self._scenario.cycle_time, check)
 
     def _age(self, state):
         """Age [s] of a state that is about to be answered. Raises MessageError: it is too old."""

@@ -155,8 +155,10 @@ class _ControllerKeys:
         "Time constant of the disturbance observer. It measures how fast a distance falls beyond "
         "what the gradients and known velocities explain: the object swings, lags behind or is of "
         "another material, or nobody tells the obstacle's velocity. The rows count with that rate. "
-        "Raise it for noisy poses; 0 switches it off.",
+        "Raise it for noisy poses; 0 switches it off. The gradients of fabrics are too coarse for "
+        "it.",
         default=0.1,
+        default_text="`0.1`; for fabrics `0`",
         paper=0.0,
         live=Live(("disturbance_filter",), 0.0, 10.0),
         native=True,
@@ -249,8 +251,9 @@ else:
 def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     """The section with what depends on the object and on its barriers filled in."""
     filled: Dict[str, Any] = {}
-    if controller.jacobian is None:
-        filled["jacobian"] = spec.jacobian
+    for key in ("jacobian", "disturbance_filter"):
+        if getattr(controller, key) is None:
+            filled[key] = getattr(spec, key)
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)

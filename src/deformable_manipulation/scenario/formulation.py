@@ -27,7 +27,9 @@ class FormulatedSection(Section):
 
 
 # jacobian depends on the object where it is left out: controller.for_object() fills it in.
-CONTROLLER = FormulatedSection(ControllerSpec, defaults={"jacobian": None})
+CONTROLLER = FormulatedSection(
+    ControllerSpec, defaults={"jacobian": None, "disturbance_filter": None}
+)
 
 
 def _completed(given: Dict[str, Any]) -> Dict[str, Any]:

@@ -26,12 +26,12 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def summary(folder):
-    return run(folder, "--set", "simulation.duration=16")
+    return run(folder)
 
 
 def test_the_filter_keeps_the_fabric_off_the_cube(summary):
     assert summary["completed"] and summary["safety"]
-    assert summary["offset"] - TOLERATED <= summary["min_distance"] < summary["offset"] + 0.01
+    assert summary["offset"] - TOLERATED <= summary["min_distance"] < summary["offset"] + 0.02
     assert summary["min_margin"]["overstretch"] > -TOLERATED
     assert summary["qp_failed"] == 0
 
@@ -51,7 +51,7 @@ def test_the_fabric_stays_as_large_as_its_material_makes_it(summary, folder):
 def test_frames_have_points_and_triangles(folder, summary):
     fabric = load_scenario(SMALL_FABRIC).object
     with np.load(folder / "states.npz") as states:
-        assert states["points"].shape == (160, 25, 3)
+        assert states["points"].shape == (40, 25, 3)
         np.testing.assert_array_equal(states["faces"], fabric.triangles)
         corners = states["points"][-1, [0, 4, 20, 24]]
         np.testing.assert_allclose(states["agents"][-1], corners, atol=1e-6)
