@@ -26,10 +26,9 @@ class FormulatedSection(Section):
         return super().read_parts(node)
 
 
-# jacobian depends on the object where it is left out: controller.for_object() fills it in.
-CONTROLLER = FormulatedSection(
-    ControllerSpec, defaults={"jacobian": None, "disturbance_filter": None}
-)
+# These depend on the object where they are left out: controller.for_object() fills them in.
+_OF_OBJECT = dict.fromkeys(("jacobian", "disturbance_filter"))
+CONTROLLER = FormulatedSection(ControllerSpec, defaults=_OF_OBJECT)
 
 
 def _completed(given: Dict[str, Any]) -> Dict[str, Any]:
