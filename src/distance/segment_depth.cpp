@@ -72,22 +72,22 @@ const std::vector<InsidePart>& SegmentDepth::partsInside(const Segment2& segment
   return parts_;
 }
 
-DeepPoint SegmentDepth::pointAt(const Segment2& segment, double parameter, int guess) const {
+DeepPoint2 SegmentDepth::pointAt(const Segment2& segment, double parameter, int guess) const {
   const NearestEdge nearest = tree_.nearest(segment.at(parameter), guess);
   return {parameter, std::sqrt(nearest.squared), nearest.edge};
 }
 
-DeepPoint SegmentDepth::deepest(const Segment2& segment, const InsidePart& part, double floor, double level,
-                                Stretch* stretch) {
-  const DeepPoint first = pointAt(segment, part.first, 0);
-  const DeepPoint last = pointAt(segment, part.last, first.edge);
+DeepPoint2 SegmentDepth::deepest(const Segment2& segment, const InsidePart& part, double floor, double level,
+                                 Stretch* stretch) {
+  const DeepPoint2 first = pointAt(segment, part.first, 0);
+  const DeepPoint2 last = pointAt(segment, part.last, first.edge);
   evaluated_.assign({first, last});
   pieces_.assign(1, {first, last});
-  DeepPoint best = {0.0, -INFINITY, -1};
+  DeepPoint2 best = {0.0, -INFINITY, -1};
   std::size_t compared = 0;
   for (;;) {
     for (; compared < evaluated_.size(); ++compared) {
-      const DeepPoint& point = evaluated_[compared];
+      const DeepPoint2& point = evaluated_[compared];
       if (point.depth > best.depth || (point.depth == best.depth && point.parameter < best.parameter)) {
         best = point;
       }
@@ -111,7 +111,7 @@ DeepPoint SegmentDepth::deepest(const Segment2& segment, const InsidePart& part,
 }
 
 void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double floor) {
-  const DeepPoint &first = piece.first, &last = piece.last;
+  const DeepPoint2 &first = piece.first, &last = piece.last;
   const Segment2 &a = ring_.edge(first.edge), &b = ring_.edge(last.edge);
   const double a_at_last = a.distance(segment.at(last.parameter));
   const double b_at_first = b.distance(segment.at(first.parameter));
@@ -128,7 +128,7 @@ void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double fl
   if (std::max({first.depth, distance, last.depth}) < floor) {
     return;
   }
-  const DeepPoint middle = pointAt(segment, parameter, first.edge);
+  const DeepPoint2 middle = pointAt(segment, parameter, first.edge);
   evaluated_.push_back(middle);
   if (middle.depth < distance - kRounding) {
     pieces_.push_back({middle, last});
