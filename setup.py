@@ -99,7 +99,7 @@ def without_ros():
 
 manifest = ElementTree.parse(str(FOLDER / "package.xml")).getroot()
 maintainer = manifest.find("maintainer")
-# catkin reads this file under another name than __main__, and installs with its folder in this variable.
+# catkin reads this file under another name than __main__, and sets this variable to install it.
 by_catkin = __name__ != "__main__" or "CATKIN_BINARY_DIR" in os.environ
 setup(
     name=PACKAGE,

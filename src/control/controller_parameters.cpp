@@ -41,6 +41,7 @@ ControllerParameters ControllerParameters::read(const ParameterSection& controll
   p.max_velocity = controller.number("max_velocity");
   p.max_acceleration = controller.number("max_acceleration");
   p.smoothing = controller.number("smoothing");
+  p.disturbance_filter = controller.number("disturbance_filter");
   p.timeout = controller.number("timeout");
   p.exact_gradients = controller.choice<bool>("jacobian", {{"equilibrium", true}, {"perturbed_copies", false}});
   p.team = readTeam(controller, team);

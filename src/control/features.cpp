@@ -11,11 +11,14 @@ void Features::take(const distance::Distances& distances, int agents, bool neare
   distance.clear();
   normal.clear();
   obstacle_velocity.clear();
+  identity.clear();
   for (int m = 0; m < count; ++m) {
     distance.push_back(distances.features[m].distance);
     normal.push_back(distances.features[m].normal);
     obstacle_velocity.push_back(distances.features[m].obstacle_velocity);
+    identity.push_back(distances.features[m].identity);
   }
+  disturbance.assign(count, 0.0);
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());
 }
 

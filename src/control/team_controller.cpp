@@ -47,6 +47,7 @@ TeamController::TeamController(const ControllerParameters& p)
       barriers_(makeBarriers(p)),
       velocities_(1e-4, p.timeout),
       differences_(p.team.agents, p.team.leader),
+      disturbances_(p.disturbance_filter),
       filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
   present_.positions.resize(p.team.agents);
   for (const int agent : p.team.commanded) {
@@ -77,6 +78,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
   filter_.setWeights(p.weights.replicate(p.team.commanded.size(), 1));
   parameters_ = std::move(p);
   barriers_ = std::move(barriers);
+  disturbances_.setTimeConstant(parameters_.disturbance_filter);
   setSmoothing();
 }
 
@@ -98,6 +100,7 @@ void TeamController::reset() {
 void TeamController::forget() {
   velocities_.reset();
   differences_.reset();
+  disturbances_.reset();
   stop();
   answered_ = false;
 }
@@ -175,9 +178,11 @@ void TeamController::predict(const ObservationView& observation) {
   predicted_.delay = parameters_.team.formulation.prediction ? parameters_.cycle_time + observation.lateness : 0.0;
   predicted_.positions.resize(present_.positions.size());
   predicted_.velocities.resize(present_.positions.size());
+  moved_.resize(present_.positions.size());
   for (int agent = 0; agent < observation.agents; ++agent) {
     present_.positions[agent] = observation.position(agent);
-    predicted_.velocities[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
+    moved_[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
+    predicted_.velocities[agent] = moved_[agent];
   }
   for (const Member& member : members_) {
     predicted_.velocities[member.agent] = member.command;
@@ -211,6 +216,7 @@ void TeamController::describe(const ObservationView& observation) {
 
 void TeamController::decide(const ObservationView& observation) {
   const bool usable = findGradients(observation);
+  disturbances_.update(observation.time, moved_, features_);
   if (parameters_.safety && features_.size() > 0 && !usable) {
     return;
   }

@@ -23,7 +23,7 @@ struct Stretch {
 };
 
 //! How a segment comes nearest to a boundary, if it does within a limit [m^2]. Of several places the first corner's
-//! in the ring counts, then the segment's start.
+//! in the boundary counts, then the segment's start.
 BoundaryApproach approachBoundary(const EdgeTree& tree, const Segment2& segment, double limit);
 
 //! Where a segment that does not cross the boundary is within a distance [m] of it, its least one: at its ends and

@@ -5,15 +5,15 @@ namespace distance {
 namespace {
 
 constexpr int kCellsAlong = 192;   // the longer side
-constexpr double kMargin = 0.125;  // around the ring, of its larger extent
+constexpr double kMargin = 0.125;  // around the boundary, of its larger extent
 
 }  // namespace
 
-DistanceGrid::DistanceGrid(const PlanarRing& ring, const EdgeTree& tree) {
-  const Point2 extent = ring.extent().upper - ring.extent().lower;
+DistanceGrid::DistanceGrid(const PlanarBoundary& boundary, const EdgeTree& tree) {
+  const Point2 extent = boundary.extent().upper - boundary.extent().lower;
   const double margin = kMargin * std::max(extent.u, extent.v);
   const Point2 sides = {extent.u + 2.0 * margin, extent.v + 2.0 * margin};
-  lower_ = ring.extent().lower - Point2{margin, margin};
+  lower_ = boundary.extent().lower - Point2{margin, margin};
   cell_ = std::max(sides.u, sides.v) / kCellsAlong;
   cells_per_metre_ = 1.0 / cell_;
   columns_ = std::max(static_cast<int>(std::ceil(sides.u * cells_per_metre_)), 1);
@@ -26,7 +26,8 @@ DistanceGrid::DistanceGrid(const PlanarRing& ring, const EdgeTree& tree) {
       const NearestEdge nearest = tree.nearest(middle, edge);
       edge = nearest.edge;
       const double distance = std::sqrt(nearest.squared);
-      const double rounded = (ring.isInside(middle, edge) ? -distance : distance) - 1e-6 * distance - 1e-12 * margin;
+      const double rounded =
+          (boundary.isInside(middle, edge) ? -distance : distance) - 1e-6 * distance - 1e-12 * margin;
       cells_.push_back({static_cast<float>(rounded), edge});
     }
   }
@@ -34,7 +35,7 @@ DistanceGrid::DistanceGrid(const PlanarRing& ring, const EdgeTree& tree) {
 
 double DistanceGrid::boundOutside(const Point2& point) const {
   const Point2 place = cells_per_metre_ * (point - lower_), inside = clamped(place);
-  // Seen from a box around the ring, all of the ring is on the other side of the box's nearest point.
+  // Seen from a box around the boundary, all of the boundary is on the other side of the box's nearest point.
   const double squared = cell_ * cell_ * squaredNorm(place - inside), bound = std::max(boundAt(inside), 0.0);
   return std::sqrt(squared + bound * bound) * (1.0 - 1e-9);
 }

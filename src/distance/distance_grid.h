@@ -10,7 +10,7 @@ namespace distance {
 //! Signed distances at the middles of a grid's cells, which bound those of all points from below.
 class DistanceGrid {
  public:
-  DistanceGrid(const PlanarRing& ring, const EdgeTree& tree);
+  DistanceGrid(const PlanarBoundary& boundary, const EdgeTree& tree);
 
   //! Not more than the signed distance [m] of a point, wherever it is.
   double lowerBound(const Point2& point) const {

@@ -12,8 +12,8 @@ int groupsOf(const int* first, const int* last) { return static_cast<int>((last 
 
 }  // namespace
 
-EdgeTree::EdgeTree(const PlanarRing& ring) : ring_(ring), size_(norm(ring.extent().upper)) {
-  std::vector<int> order(ring.size());
+EdgeTree::EdgeTree(const PlanarBoundary& boundary) : boundary_(boundary), size_(norm(boundary.extent().upper)) {
+  std::vector<int> order(boundary.size());
   std::iota(order.begin(), order.end(), 0);
   root_ = build(order.data(), order.data() + order.size());
 }
@@ -49,7 +49,7 @@ int* EdgeTree::split(int* first, int* last, int groups) const {
   const bool second = box.upper.v - box.lower.v > box.upper.u - box.lower.u;
   int* const middle = first + groups * kGroup;
   std::nth_element(first, middle, last, [&](int a, int b) {
-    return coordinate(ring_.edge(a).middle, second) < coordinate(ring_.edge(b).middle, second);
+    return coordinate(boundary_.edge(a).middle, second) < coordinate(boundary_.edge(b).middle, second);
   });
   return middle;
 }
@@ -57,8 +57,8 @@ int* EdgeTree::split(int* first, int* last, int groups) const {
 Box2 EdgeTree::boxOf(const int* first, const int* last) const {
   Box2 box;
   for (const int* edge = first; edge != last; ++edge) {
-    box.add(ring_.edge(*edge).start);
-    box.add(ring_.edge(*edge).end);
+    box.add(boundary_.edge(*edge).start);
+    box.add(boundary_.edge(*edge).end);
   }
   return box;
 }
@@ -67,7 +67,7 @@ int EdgeTree::addGroup(const int* first, const int* last) {
   EdgeGroup group;
   for (int k = 0; k < kGroup; ++k) {
     const int index = first[std::min<long>(k, last - first - 1)];
-    const Segment2& edge = ring_.edge(index);
+    const Segment2& edge = boundary_.edge(index);
     group.start.set(k, edge.start);
     group.end.set(k, edge.end);
     group.middle.set(k, edge.middle);
@@ -80,7 +80,7 @@ int EdgeTree::addGroup(const int* first, const int* last) {
 }
 
 NearestEdge EdgeTree::nearest(const Point2& point, int guess) const {
-  double limit = limitFor(ring_.edge(guess).squaredDistance(point), point);
+  double limit = limitFor(boundary_.edge(guess).squaredDistance(point), point);
   NearestEdge found;
   visitNear(PointBound{point}, limit, [&](const EdgeGroup& group) {
     const Four arm_u = point.u - group.middle.u, arm_v = point.v - group.middle.v;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "four.h"
-#include "planar_ring.h"
+#include "planar_boundary.h"
 
 namespace deformable_manipulation {
 namespace distance {
@@ -24,7 +24,7 @@ struct FourPoints {
 struct EdgeGroup {
   FourPoints start, end, middle, direction;
   Four half;          // m, half the length
-  int index[kGroup];  // in the ring
+  int index[kGroup];  // in the boundary
 };
 
 //! Rectangles along the axes.
@@ -34,7 +34,7 @@ struct BoxGroup {
 
 //! The edge nearest to a point.
 struct NearestEdge {
-  int edge = -1;              //!< of several equally near ones, the first in the ring
+  int edge = -1;              //!< of several equally near ones, the first in the boundary
   double squared = INFINITY;  //!< [m^2] distance
 };
 
@@ -73,10 +73,10 @@ struct SegmentBound {
   Box2 box;
 };
 
-//! The edges of a ring in a tree of boxes, to find those near something.
+//! The edges of a boundary in a tree of boxes, to find those near something.
 class EdgeTree {
  public:
-  explicit EdgeTree(const PlanarRing& ring);
+  explicit EdgeTree(const PlanarBoundary& boundary);
 
   //! @param guess an edge that is likely to be near, or any other; the result does not depend on it
   NearestEdge nearest(const Point2& point, int guess) const;
@@ -110,8 +110,8 @@ class EdgeTree {
   Box2 boxOf(const int* first, const int* last) const;
   int* split(int* first, int* last, int groups) const;
 
-  const PlanarRing& ring_;
-  const double size_;  // m, of the ring
+  const PlanarBoundary& boundary_;
+  const double size_;  // m, of the boundary
   std::vector<Node> nodes_;
   std::vector<EdgeGroup> groups_;
   int root_;

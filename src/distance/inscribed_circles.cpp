@@ -13,18 +13,20 @@ constexpr std::size_t kMostCompared = 64;  // edges that are compared pair by pa
 constexpr double kSmallestCell = 1e-14;    // of the region's size
 constexpr double kRounding = 1e-15;        // of distances, as a part of the region's size
 
-//! The ring's edges, those in one line joined.
-std::vector<Segment2> straightEdges(const PlanarRing& ring) {
-  std::vector<Point2> corners;
-  for (int i = 0; i < ring.size(); ++i) {
-    const Point2 before = ring.edge((i + ring.size() - 1) % ring.size()).direction, after = ring.edge(i).direction;
-    if (std::fabs(cross(before, after)) > kStraight || dot(before, after) < 0.0) {
-      corners.push_back(ring.edge(i).start);
-    }
-  }
+//! The boundary's edges, those in one line joined.
+std::vector<Segment2> straightEdges(const PlanarBoundary& boundary) {
   std::vector<Segment2> edges;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    edges.emplace_back(corners[i], corners[(i + 1) % corners.size()]);
+  for (std::size_t r = 0; r + 1 < boundary.begins().size(); ++r) {
+    std::vector<Point2> corners;
+    for (int i = boundary.begins()[r]; i < boundary.begins()[r + 1]; ++i) {
+      const Point2 before = boundary.edge(boundary.previous(i)).direction, after = boundary.edge(i).direction;
+      if (std::fabs(cross(before, after)) > kStraight || dot(before, after) < 0.0) {
+        corners.push_back(boundary.edge(i).start);
+      }
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      edges.emplace_back(corners[i], corners[(i + 1) % corners.size()]);
+    }
   }
   return edges;
 }
@@ -34,10 +36,10 @@ std::vector<Segment2> straightEdges(const PlanarRing& ring) {
 //! Around such a point the directions away from the nearest edges do not fit in one half of the circle.
 class Quartering {
  public:
-  explicit Quartering(const PlanarRegion& region) : region_(region), edges_(straightEdges(region.ring())) {}
+  explicit Quartering(const PlanarRegion& region) : region_(region), edges_(straightEdges(region.boundary())) {}
 
   std::vector<InscribedCircle> run() {
-    const Box2& extent = region_.ring().extent();
+    const Box2& extent = region_.boundary().extent();
     const double half = 0.5 * std::max(extent.upper.u - extent.lower.u, extent.upper.v - extent.lower.v);
     smallest_ = kSmallestCell * half;
     rounding_ = kRounding * half;

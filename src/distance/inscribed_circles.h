@@ -11,7 +11,7 @@ namespace distance {
 struct InscribedCircle {
   Point2 centre;
   double radius;  //!< [m] depth of the centre
-  int edge;       //!< of the ring, one that it touches
+  int edge;       //!< of the boundary, one that it touches
 };
 
 //! Circles around all points of a region that are deeper than all around them, and around the ends of the ridges where

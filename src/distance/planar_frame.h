@@ -9,7 +9,7 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Coordinates in the plane of an obstacle, counted from the middle of its ring.
+//! Coordinates in the plane of an obstacle, counted from the middle of its boundary.
 class PlanarFrame {
  public:
   //! @param axes which of the obstacle's own axes u and v are: 0 to 2

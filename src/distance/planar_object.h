@@ -11,7 +11,7 @@ namespace distance {
 //! A material point of the object: its geometry points' weighted sum.
 struct MaterialPoint {
   double distance = INFINITY;  //!< [m] signed
-  int edge = 0;                //!< of the ring, near there; a guess only
+  int edge = 0;                //!< of the boundary, near there; a guess only
   std::array<int, 3> vertices = {0, 0, 0};
   std::array<double, 3> weights = {0.0, 0.0, 0.0};
 };

@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "boundary_crossing.h"
 #include "planar_frame.h"
 #include "planar_polyline.h"
 #include "planar_surface.h"
 #include "pose_checks.h"
-#include "ring_crossing.h"
 
 namespace deformable_manipulation {
 namespace distance {
@@ -30,8 +30,8 @@ std::array<int, 2> axesOf(const std::string& plane, std::vector<std::string>* pr
 //! A region in its plane, the copies in it, and what was nearest last.
 class PlanarObstacle::Search {
  public:
-  Search(PlanarRing ring, const PlanarFrame& frame)
-      : region_(std::move(ring)), frame_(frame), polyline_(region_) {}
+  Search(PlanarBoundary boundary, const PlanarFrame& frame)
+      : region_(std::move(boundary)), frame_(frame), polyline_(region_) {}
 
   const PlanarRegion& region() const { return region_; }
 
@@ -80,7 +80,7 @@ class PlanarObstacle::Search {
       return kUnbounded;
     }
     const Point2 point = copy.at(last);
-    return last.distance > 0.0 ? region_.ring().edge(last.edge).distance(point)
+    return last.distance > 0.0 ? region_.boundary().edge(last.edge).distance(point)
                                : region_.signedPoint(point, last.edge).distance;
   }
 
@@ -100,13 +100,13 @@ class PlanarObstacle::Search {
     }
     const Point2 point = frame_.project(feature.object_point);
     const SignedPoint nearest = region_.signedPoint(point, place.edge);
-    const Segment2& edge = region_.ring().edge(nearest.edge);
+    const Segment2& edge = region_.boundary().edge(nearest.edge);
     const Point2 arm = point - edge.foot(edge.along(point));
     feature.distance = std::copysign(norm(arm), nearest.distance);
     feature.obstacle_point = feature.object_point - frame_.lift(arm);
     feature.normal =
         frame_.lift(std::fabs(feature.distance) > kOnBoundary ? (1.0 / feature.distance) * arm
-                                                              : region_.ring().outwardNormal(nearest.edge));
+                                                              : region_.boundary().outwardNormal(nearest.edge));
     feature.obstacle_velocity = velocity_.linear + velocity_.angular.cross(feature.obstacle_point - translation_);
     return feature;
   }
@@ -123,14 +123,18 @@ class PlanarObstacle::Search {
 };
 
 PlanarObstacle::PlanarObstacle(const std::vector<std::array<double, 2>>& points, const std::string& plane,
+                               const Vector3& translation, const pbd::Quaternion& rotation)
+    : PlanarObstacle(std::vector<Corners2>{points}, plane, translation, rotation) {}
+
+PlanarObstacle::PlanarObstacle(const std::vector<std::vector<std::array<double, 2>>>& rings, const std::string& plane,
                                const Vector3& translation, const pbd::Quaternion& rotation) {
   std::vector<std::string> problems;
-  PlanarRing ring(points, &problems);
-  const PlanarFrame frame(axesOf(plane, &problems), ring.origin());
+  PlanarBoundary boundary(rings, &problems);
+  const PlanarFrame frame(axesOf(plane, &problems), boundary.origin());
   checkPose(translation, rotation, &problems);
-  if (ring.size() > 0) {
-    search_ = std::make_unique<Search>(std::move(ring), frame);
-    checkCrossings(search_->region().ring(), search_->region().tree(), &problems);
+  if (boundary.size() > 0) {
+    search_ = std::make_unique<Search>(std::move(boundary), frame);
+    checkCrossings(search_->region().boundary(), search_->region().tree(), &problems);
   }
   throwIfAny(problems);
   setPose(translation, rotation);

@@ -11,7 +11,7 @@ constexpr double kTouching = 1e-9;  // m, distance below which a segment may ent
 SignedPoint PlanarRegion::signedPoint(const Point2& point, int guess) const {
   const NearestEdge nearest = tree_.nearest(point, guess);
   const double distance = std::sqrt(nearest.squared);
-  return {ring_.isInside(point, nearest.edge) ? -distance : distance, nearest.edge};
+  return {boundary_.isInside(point, nearest.edge) ? -distance : distance, nearest.edge};
 }
 
 SegmentNearest PlanarRegion::nearestMiddle(const Segment2& segment, double bound) {
@@ -45,7 +45,7 @@ SegmentNearest PlanarRegion::search(const Segment2& segment, double bound, Stret
   }
   const Point2 place = segment.at(near.parameter);
   const bool touches = distance <= kTouching;
-  if (touches || ring_.isInside(place, near.edge)) {
+  if (touches || boundary_.isInside(place, near.edge)) {
     const SegmentNearest deep = deepest(segment, touches ? partsInside(segment) : whole_, bound, level);
     if (deep.distance <= 0.0) {
       return deep;

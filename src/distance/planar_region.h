@@ -28,15 +28,15 @@ struct SegmentNearest {
   int edge = 0;  //!< an edge near there
 };
 
-//! The region in a ring: signed distances of points and segments to its boundary.
+//! The region in a boundary: signed distances of points and segments to its boundary.
 class PlanarRegion {
  public:
-  explicit PlanarRegion(PlanarRing ring)
-      : ring_(std::move(ring)), tree_(ring_), grid_(ring_, tree_), depth_(ring_, tree_) {}
+  explicit PlanarRegion(PlanarBoundary boundary)
+      : boundary_(std::move(boundary)), tree_(boundary_), grid_(boundary_, tree_), depth_(boundary_, tree_) {}
   PlanarRegion(const PlanarRegion&) = delete;
   PlanarRegion& operator=(const PlanarRegion&) = delete;
 
-  const PlanarRing& ring() const { return ring_; }
+  const PlanarBoundary& boundary() const { return boundary_; }
   const EdgeTree& tree() const { return tree_; }
 
   //! Not more than the signed distance [m] of a point.
@@ -60,7 +60,7 @@ class PlanarRegion {
   SegmentNearest search(const Segment2& segment, double bound, Stretch* level);
   SegmentNearest deepest(const Segment2& segment, const std::vector<InsidePart>& parts, double bound, Stretch* level);
 
-  const PlanarRing ring_;
+  const PlanarBoundary boundary_;
   const EdgeTree tree_;
   const DistanceGrid grid_;
   SegmentDepth depth_;

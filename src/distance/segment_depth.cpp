@@ -49,7 +49,7 @@ const std::vector<InsidePart>& SegmentDepth::partsInside(const Segment2& segment
   const double limit = tree_.limitFor(0.0, segment.middle);
   tree_.visitNear(SegmentBound(segment), limit, [&](const EdgeGroup& group) {
     for (int index : group.index) {
-      const Segment2& edge = ring_.edge(index);
+      const Segment2& edge = boundary_.edge(index);
       const double start = edge.across(segment.start), end = edge.across(segment.end);
       const double parameter = start / (start - end);  // not finite where parallel
       if (parameter > 0.0 && parameter < 1.0 &&
@@ -64,7 +64,7 @@ const std::vector<InsidePart>& SegmentDepth::partsInside(const Segment2& segment
     if (cuts_[i] < cuts_[i + 1] || segment.length == 0.0) {
       const Point2 middle = segment.at(0.5 * (cuts_[i] + cuts_[i + 1]));
       guess = tree_.nearest(middle, guess).edge;
-      if (ring_.isInside(middle, guess)) {
+      if (boundary_.isInside(middle, guess)) {
         parts_.push_back({cuts_[i], cuts_[i + 1]});
       }
     }
@@ -112,7 +112,7 @@ DeepPoint2 SegmentDepth::deepest(const Segment2& segment, const InsidePart& part
 
 void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double floor) {
   const DeepPoint2 &first = piece.first, &last = piece.last;
-  const Segment2 &a = ring_.edge(first.edge), &b = ring_.edge(last.edge);
+  const Segment2 &a = boundary_.edge(first.edge), &b = boundary_.edge(last.edge);
   const double a_at_last = a.distance(segment.at(last.parameter));
   const double b_at_first = b.distance(segment.at(first.parameter));
   const double ceiling = std::min(std::max(first.depth, a_at_last), std::max(last.depth, b_at_first));

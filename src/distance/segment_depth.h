@@ -7,19 +7,19 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! A part of a segment inside the ring, between two of its parameters.
+//! A part of a segment inside the boundary, between two of its parameters.
 struct InsidePart {
   double first, last;
 };
 
-//! A segment's point inside the ring.
+//! A segment's point inside the boundary.
 struct DeepPoint2 {
   double parameter;
   double depth;  //!< [m] distance to the boundary
   int edge;      //!< the nearest
 };
 
-//! How deep segments are inside a ring.
+//! How deep segments are inside a boundary.
 //!
 //! The depth of a point inside is its distance to the boundary, the smallest of its distances to the edges. Each of
 //! these is convex along a segment. Hence, if edge a is the nearest at the one end of a piece and edge b at the
@@ -28,7 +28,7 @@ struct DeepPoint2 {
 //! searched in the same way.
 class SegmentDepth {
  public:
-  SegmentDepth(const PlanarRing& ring, const EdgeTree& tree) : ring_(ring), tree_(tree) {}
+  SegmentDepth(const PlanarBoundary& boundary, const EdgeTree& tree) : boundary_(boundary), tree_(tree) {}
 
   //! The parts of a segment inside, in order. Valid until the next call.
   const std::vector<InsidePart>& partsInside(const Segment2& segment, int guess);
@@ -47,7 +47,7 @@ class SegmentDepth {
   DeepPoint2 pointAt(const Segment2& segment, double parameter, int guess) const;
   void divide(const Segment2& segment, const Piece& piece, double floor);
 
-  const PlanarRing& ring_;
+  const PlanarBoundary& boundary_;
   const EdgeTree& tree_;
   std::vector<double> cuts_;
   std::vector<InsidePart> parts_;

@@ -178,7 +178,7 @@ void Simulation::clearPerturbations(int agent) {
 void Simulation::release(int agent) {
   AgentState& released = state(agent);
   if (released.particle < 0) {
-    throw std::logic_error(agents_[agent].name + " holds no particle");
+    throw std::logic_error(agents_[agent].name + " holds nothing");
   }
   body_->release(released.particle);
   released.particle = -1;

@@ -81,6 +81,11 @@ bool AgentLink::isTrue(const pbd::Pose& present) const {
   return poses_.distanceFrom(present.position) < kCaughtUp;
 }
 
+std::string AgentLink::awaited() const {
+  return poses_.fresh(ros::Time::now()) ? name_ + " to reach its pose"
+                                        : "the pose of " + name_ + " on " + subscriber_.getTopic();
+}
+
 pbd::Twist AgentLink::commanded() const {
   const std::vector<std::string> senders = presentSenders();
   if (senders.size() > 1) {

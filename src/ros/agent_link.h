@@ -43,6 +43,9 @@ class AgentLink {
   //! that is not lost. Says why not.
   bool isTrue(const pbd::Pose& present) const;
 
+  //! What is awaited of an agent that is not true.
+  std::string awaited() const;
+
   //! A clause that says why the agent's input is not used at present; empty if it is.
   std::string fault() const;
 

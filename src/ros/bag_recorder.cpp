@@ -27,6 +27,7 @@ bool beginsWithHeader(const std::string& definition) {
 
 BagRecorder::BagRecorder(ros::NodeHandle& node, const std::string& path, const std::vector<std::string>& topics)
     : path_(path), bag_(path + kActive, rosbag::bagmode::Write) {
+  bag_.setCompression(rosbag::compression::LZ4);  // keeps up with any run, which bz2 does not
   recorded_ = node.advertise<std_msgs::Header>("recorded", 1, true);
   topics_.reserve(topics.size());  // they are subscribed with their addresses
   for (const std::string& name : topics) {

@@ -12,7 +12,8 @@
 namespace deformable_manipulation {
 namespace {
 
-constexpr double kWarningPeriod = 5.0;  // s
+constexpr double kWarningPeriod = 5.0;   // s
+constexpr double kOverrunPeriod = 60.0;  // s
 
 // States kept for a subscriber that is slow for a moment: a recorder must not lose any.
 constexpr int kQueue = 100;
@@ -50,6 +51,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
   const bool latch = options_.lockstep;  // whoever connects late gets the state that everybody waits for
   state_publisher_ = node_.advertise<ObjectState>("state", kQueue, latch);
   positions_publisher_ = node_.advertise<AgentPositions>("agent_positions", kQueue, latch);
+  waiting_publisher_ = node_.advertise<std_msgs::String>("waiting_for", 1, true);
   if (options_.lockstep) {
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1, latch);
     if (options_.recorded) {
@@ -112,13 +114,19 @@ void Simulator::waitForSubscribers(const ros::Publisher& publisher, int wanted) 
   }
 }
 
-//! A simulation of agents that are somewhere else must not move any robot.
-bool Simulator::agentsAreTrue() const {
-  bool all = true;
+//! A simulation of agents that are somewhere else must not move any robot. Tells everybody whom it waits for.
+bool Simulator::agentsAreTrue() {
+  std_msgs::String waiting_for;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    all = links_[i].isTrue(simulation_.pose(static_cast<int>(i))) && all;
+    if (!links_[i].isTrue(simulation_.pose(static_cast<int>(i)))) {
+      waiting_for.data += (waiting_for.data.empty() ? "" : " and ") + links_[i].awaited();
+    }
   }
-  return all;
+  if (waiting_for.data != waiting_for_.data) {
+    waiting_for_ = waiting_for;
+    waiting_publisher_.publish(waiting_for_);
+  }
+  return waiting_for.data.empty();
 }
 
 void Simulator::publish() {
@@ -225,9 +233,10 @@ void Simulator::awaitTick() {
     ++overruns_;
     diagnostics_.countOverrun();
     next_tick_ = SteadyClock::now();
-    ROS_WARN_THROTTLE(kWarningPeriod,
-                      "Overrun: %ld of %ld cycles took longer than %.1f ms; the simulation lags behind.", overruns_,
-                      published_, 1e3 * scenario_.clock.cycleTime());
+    ROS_WARN_THROTTLE(kOverrunPeriod,
+                      "%s: Overruns: %ld of %ld cycles took longer than %.1f ms. This machine is too slow for the run: "
+                      "lower controller.rate, or use lockstep:=true.",
+                      ros::this_node::getName().c_str(), overruns_, published_, 1e3 * scenario_.clock.cycleTime());
   }
   ros::getGlobalCallbackQueue()->callAvailable();
   for (SteadyClock::time_point now = SteadyClock::now(); ros::ok() && now < next_tick_; now = SteadyClock::now()) {

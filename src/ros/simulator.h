@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
+#include <std_msgs/String.h>
 
 #include <chrono>
 #include <functional>
@@ -57,7 +58,7 @@ class Simulator {
   void awaitTick();
   void awaitPermission();
   void applyInputs();
-  bool agentsAreTrue() const;
+  bool agentsAreTrue();
   std::string unanswered() const;
   std::string unrecorded(long allowed) const;
   bool atEnd() const;
@@ -66,7 +67,7 @@ class Simulator {
   SimulatorOptions options_;
   pbd::Simulation simulation_;
   ros::NodeHandle node_;
-  ros::Publisher state_publisher_, positions_publisher_, clock_publisher_;
+  ros::Publisher state_publisher_, positions_publisher_, clock_publisher_, waiting_publisher_;
   ros::Subscriber recorder_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
   ObjectServices object_services_;
@@ -76,6 +77,7 @@ class Simulator {
   SimulatorDiagnostics diagnostics_;
 
   ObjectState state_;
+  std_msgs::String waiting_for_;
   AgentPositions positions_;
   long published_ = 0;  // states since the start, over all resets
   long overruns_ = 0;

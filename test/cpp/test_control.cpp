@@ -150,6 +150,7 @@ Mapping controller(bool exact) {
           {"max_velocity", 0.15},
           {"max_acceleration", 1.0},
           {"smoothing", 0.0},
+          {"disturbance_filter", 0.2},
           {"timeout", 0.2},
           {"jacobian", exact ? "equilibrium" : "perturbed_copies"},
           {"collision", collision()},

@@ -148,6 +148,27 @@ TEST(PlanarObstacle, surfaceAroundTheObstacleIsAsDeepAsItsCentre) {
   EXPECT_NEAR(found.features[0].object_point.y(), 0.5, 1e-9);
 }
 
+TEST(PlanarObstacle, holesAreOutside) {
+  const Ring hole = {{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}};
+  const Ring apart = {{3.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {3.0, 1.0}};
+  const auto minimum = [&](double u, double v) {
+    MinimumDistance distance({std::make_shared<PlanarObstacle>(std::vector<Ring>{apart, hole, kSquare}, "xy")}, 0.0,
+                             0.1);
+    return distance.compute(view({u, v, 0.0, u, v, 1.0}, 1)).minimum[0];
+  };
+  EXPECT_NEAR(minimum(0.5, 0.5), 0.25, 1e-12);
+  EXPECT_NEAR(minimum(0.5, 0.1), -0.1, 1e-12);
+  EXPECT_NEAR(minimum(0.2, 0.2), -0.05 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(minimum(2.5, 0.5), 0.5, 1e-12);
+  EXPECT_NEAR(minimum(3.5, 0.5), -0.5, 1e-12);
+}
+
+TEST(PlanarObstacle, ringsMustNotMeet) {
+  const Ring touching = {{0.0, 0.5}, {0.5, 0.4}, {0.5, 0.6}};
+  EXPECT_THROW(PlanarObstacle(std::vector<Ring>{kSquare, touching}, "xy"), std::invalid_argument);
+  EXPECT_THROW(PlanarObstacle(std::vector<Ring>{}, "xy"), std::invalid_argument);
+}
+
 TEST(PlanarObstacle, velocityIsThatOfTheMovingObstacleAtItsPoint) {
   auto obstacle = std::make_shared<PlanarObstacle>(kSquare, "xy");
   MinimumDistance distance({obstacle}, 0.0, 0.1);

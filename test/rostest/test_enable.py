@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An assistant that is switched off answers with zero velocity, and follows once switched on."""
+"""Switched off, an assistant stands still, and its leader waits; switched on, it follows."""
 
 import unittest
 
@@ -14,9 +14,10 @@ from observed_run import (
     run_tests,
     velocities_of,
 )
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.ros.conversions import agent_positions
 from deformable_manipulation.srv import ClearPerturbations, SetPerturbations
 
@@ -32,7 +33,19 @@ class EnableTest(unittest.TestCase):
         (cls.assistant,) = cls.scenario.assistants
         cls.decisions = observe_controllers(cls.scenario)[AGENT]
         cls.states = observe_states()
-        cls.disabled = cls.decisions.wait_for_cycle(cls.scenario.cycles)
+
+    def setUp(self):
+        """The assistant is off, and the leader waits for it at its start."""
+        self.enable(False)
+        resets = self.states[-1].reset_count if self.states else 0
+        self.assertTrue(call("reset", Trigger).success)
+        self.states.wait_for(lambda state: state.reset_count > resets, "a reset")
+        self.first = self.decisions.wait_for(
+            lambda decision: decision.reset_count > resets, "a decision after the reset"
+        )
+
+    def since_reset(self, messages):
+        return [each for each in messages if each.reset_count == self.first.reset_count]
 
     def enable(self, enabled):
         response = call(AGENT + "/enable", SetBool, enabled)
@@ -47,38 +60,81 @@ class EnableTest(unittest.TestCase):
             self.assertIn(decision.status, allowed, decision.status_text)
         return first
 
-    def tearDown(self):
-        self.enable(False)
+    def way(self, state, agent):
+        """How far (3,) [m] an agent is from its start."""
+        start = self.scenario.agents[agent].start
+        return agent_positions(state, self.scenario)[agent] - start
 
-    def test_it_stands_still_from_the_start_while_it_is_off(self):
-        self.assertEqual([each.cycle for each in self.disabled], list(range(len(self.disabled))))
-        self.assertEqual({each.status for each in self.disabled}, {int(Status.DISABLED)})
-        self.assertFalse(any(each.enabled for each in self.disabled))
-        self.assertFalse(any(command_of(each).any() for each in self.disabled))
-        last = self.states.wait_for_cycle(self.scenario.cycles)[self.scenario.cycles]
-        leader, assistant = (
-            agent_positions(last, self.scenario)[index] - self.scenario.agents[index].start
-            for index in (self.scenario.leader_index, self.assistant)
+    def wait_for_leader_below(self, height):
+        """Wait until the leader is lower than a height [m] relative to its start."""
+        leader = self.scenario.leader_index
+        self.states.wait_for(
+            lambda state: (
+                state.reset_count == self.first.reset_count and self.way(state, leader)[2] < height
+            ),
+            "a leader on its way",
         )
-        self.assertLess(leader[2], -0.4)
-        self.assertEqual(assistant.tolist(), [0.0, 0.0, 0.0])
+
+    def test_both_stand_still_while_it_is_off(self):
+        last = self.states.wait_for_cycle(self.scenario.cycles, self.first.reset_count)[-1]
+        for agent in (self.scenario.leader_index, self.assistant):
+            self.assertEqual(self.way(last, agent).tolist(), [0.0, 0.0, 0.0])
+        disabled = self.since_reset(self.decisions)
+        self.assertEqual([each.cycle for each in disabled], list(range(len(disabled))))
+        self.assertEqual({each.status for each in disabled}, {int(Status.DISABLED)})
+        self.assertFalse(any(each.enabled for each in disabled))
+        self.assertFalse(any(command_of(each).any() for each in disabled))
+
+    def test_the_leader_starts_its_path_when_it_is_told_to(self):
+        response = call("leader/start", Trigger)
+        self.assertTrue(response.success, response.message)
+        self.wait_for_leader_below(-0.1)
+        response = call("leader/start", Trigger)
+        self.assertFalse(response.success)
+        self.assertIn("on its path already", response.message)
+
+    def test_the_leader_starts_its_path_from_the_beginning_when_it_is_on(self):
+        self.states.wait_for_cycle(self.scenario.cycles // 2, self.first.reset_count)
+        self.enable(True)
+        self.wait_for_leader_below(-0.1)
+        path = LeaderPath(self.scenario.leader.waypoints)
+        on_path = [
+            state
+            for state in self.since_reset(list(self.states))
+            if self.way(state, self.scenario.leader_index)[2] < 0.0
+        ]
+        # The command for the first cycle of the path acts in the state after the next.
+        for index, state in enumerate(on_path):
+            np.testing.assert_allclose(
+                self.way(state, self.scenario.leader_index),
+                path.at((index + 2) * self.scenario.cycle_time),
+                0.0,
+                1e-9,
+            )
 
     def test_it_follows_once_it_is_on_and_stops_once_it_is_off(self):
         self.enable(True)
+        self.wait_for_status(*FOLLOWING)
+        self.enable(False)
+        stopped = self.wait_for_status(Status.DISABLED)
+        after = [each for each in self.since_reset(self.decisions) if each.cycle >= stopped.cycle]
+        self.assertFalse(any(command_of(each).any() for each in after))
+        # The command that answers a state acts from the next one on, so it shows after that.
+        for state in self.states.wait_for_cycle(stopped.cycle + FURTHER, self.first.reset_count):
+            if state.reset_count == self.first.reset_count and state.cycle >= stopped.cycle + 2:
+                self.assertFalse(velocities_of(state, self.scenario)[self.assistant].any())
+
+    def test_it_makes_up_for_what_it_missed_while_it_was_off(self):
+        self.assertTrue(call("leader/start", Trigger).success)
+        self.wait_for_leader_below(-0.4)
+        self.enable(True)
         following = self.wait_for_status(*FOLLOWING)
+        self.assertGreater(following.error_norm, 0.3)
         self.decisions.wait_for(
             lambda decision: decision.error_norm < 0.6 * following.error_norm,
             "a smaller error",
             len(self.decisions),
         )
-        self.enable(False)
-        stopped = self.wait_for_status(Status.DISABLED)
-        after = [each for each in self.decisions if each.cycle >= stopped.cycle]
-        self.assertFalse(any(command_of(each).any() for each in after))
-        # The command that answers a state acts from the next one on, so it shows after that.
-        for state in self.states.wait_for_cycle(stopped.cycle + FURTHER):
-            if state.cycle >= stopped.cycle + 2:
-                self.assertFalse(velocities_of(state, self.scenario)[self.assistant].any())
 
     def test_it_waits_without_copies_and_goes_on_with_new_ones(self):
         self.enable(True)

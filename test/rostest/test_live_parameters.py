@@ -1,18 +1,22 @@
 #!/usr/bin/env python3
 """Parameters changed while the nodes run take effect within a cycle and outlive a reset."""
 
+import math
 import unittest
 
 import numpy as np
 from dynamic_reconfigure.client import Client
 from observed_run import (
     DEADLINE,
+    Messages,
     call,
     observe_controllers,
     observe_states,
+    poll,
     read_scenario,
     run_tests,
 )
+from rosgraph_msgs.msg import Log
 from std_srvs.srv import SetBool, Trigger
 
 from deformable_manipulation.ros.live_parameters import values_of
@@ -86,6 +90,65 @@ class LiveParametersTest(unittest.TestCase):
         self.assertIn("Nothing changed: controller.proximity.min_distance", result["outcome"])
         self.assertEqual(result["max_distance"], -1.0)
         self.assertEqual(result["min_distance"], -1.0)
+
+    def test_values_out_of_range_are_refused_and_the_old_ones_stay(self):
+        cases = [
+            ("collision_offset", -1.0, "from 0 to 1, not -1.0"),
+            ("max_velocity", 1e9, "from 0.001 to 2, not 1000000000.0"),
+            ("gain", math.inf, "from 0.01 to 20, not inf"),
+            ("max_distance", math.nan, "from -1 to 100, not nan"),
+        ]
+        for name, value, text in cases:
+            with self.subTest(name):
+                kept = values_of(self.scenario)[name]
+                result = self.set(self.controller, **{name: value})
+                self.assertEqual(result[name], kept)
+                self.assertEqual(
+                    result["outcome"],
+                    f"Nothing changed: {name} must be a number {text}; it stays {kept:g}.",
+                )
+        result = self.set(self.controller, gain=2.0, smoothing=-0.5, weight_x=1e3)
+        self.assertEqual(result["gain"], self.scenario.controller.gain)
+        for name in ("smoothing", "weight_x"):
+            self.assertIn(f"{name} must be", result["outcome"])
+        following = self.decisions.wait_for_more(CYCLES)[-1]
+        self.assertAlmostEqual(self.offset_of(following), self.scenario.controller.collision.offset)
+
+    def test_a_refusal_is_an_error_in_the_log(self):
+        log = Messages("/rosout", Log)
+        for client, name in (
+            (self.controller, "collision_offset"),
+            (self.simulator, "perturbation_z"),
+        ):
+
+            def refusal_is_in_the_log(client=client, name=name):
+                self.set(client, **{name: -5.0})  # again, until the node is connected
+                return any(
+                    entry.level == Log.ERROR and f"Nothing changed: {name} must" in entry.msg
+                    for entry in list(log)
+                )
+
+            poll(refusal_is_in_the_log, "the refusal of " + name)
+
+    def test_clients_learn_the_ranges(self):
+        for client, name, ends in (
+            (self.controller, "max_velocity", (0.001, 2.0)),
+            (self.simulator, "perturbation_z", (-1.0, 1.0)),
+        ):
+            described = {entry["name"]: entry for entry in client.get_parameter_descriptions()}
+            self.assertEqual((described[name]["min"], described[name]["max"]), ends)
+
+    def test_perturbations_out_of_range_are_refused_and_the_old_ones_stay(self):
+        kept = self.scenario.controller.perturbation[2]
+        for value in (5.0, -1.5, math.inf, math.nan):
+            with self.subTest(value):
+                result = self.set(self.simulator, perturbation_z=value)
+                self.assertEqual(result["perturbation_z"], kept)
+                self.assertEqual(
+                    result["outcome"],
+                    "Nothing changed: perturbation_z must be a number from -1 to 1, "
+                    f"not {value:g}; it stays {kept:g}.",
+                )
 
     def test_perturbations_change_and_outlive_a_reset(self):
         result = self.set(self.simulator, perturbation_z=0.04)

@@ -139,7 +139,7 @@ class ObjectServicesTest(unittest.TestCase):
             lambda state: object_points(state)[-1, 2] < 0.8, "the end of the rope falling"
         )
         self.assertEqual(copies(state), [])
-        self.assert_refused("holds no", "release", ReleaseParticle, AGENT)
+        self.assert_refused("assistant_1 holds nothing", "release", ReleaseParticle, AGENT)
         self.assert_refused("away", "hold", HoldParticle, AGENT, -1, "")
         self.setUp()
         self.assertEqual(self.held_particles(), [0, 27])

@@ -134,6 +134,8 @@ class RefusalsTest(unittest.TestCase):
         """A launch with this scenario file and arguments ends before any node starts."""
         launch, _ = start_launch("scenario:={}".format(path), *arguments)
         output = self.assert_refuses(launch, *texts)
+        for text in texts:
+            self.assertGreater(output.rindex(text), output.rindex("RLException"), output)
         self.assertNotIn("started with pid", output)
 
     def assert_launch_refuses_changes(self, changes, *texts):
@@ -179,6 +181,11 @@ class RefusalsTest(unittest.TestCase):
                 "record:=true",
                 "output:=/nowhere/bags",
             ],
+        )
+
+    def test_a_launch_in_a_namespace_that_cannot_be(self):
+        self.assert_launch_refuses(
+            SHORT_ROPE, "namespace: 'left-hand'", arguments=["namespace:=left-hand"]
         )
 
     def test_a_lock_step_launch_without_one_of_its_assistants(self):

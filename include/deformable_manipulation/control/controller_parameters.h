@@ -23,6 +23,7 @@ struct ControllerParameters {
   double max_velocity;                //!< [m/s] of every component
   double max_acceleration;            //!< [m/s^2] of every component
   double smoothing;                   //!< [s] time constant of a departure from the nominal velocity; 0: none
+  double disturbance_filter;          //!< [s] time constant of the disturbance observer; 0: none
   double timeout;                     //!< [s] a state older than the last by more means that time was set back
   bool exact_gradients;               //!< from the response, where it is known
   Team team;                          //!< who is commanded, and who else there is

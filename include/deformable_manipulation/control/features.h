@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "deformable_manipulation/control/observation.h"
@@ -29,6 +30,8 @@ class Features {
   std::vector<double> distance;            //!< [M] m, signed, the least first
   std::vector<Vector3> normal;             //!< [M] unit vector along which the distance grows fastest
   std::vector<Vector3> obstacle_velocity;  //!< [M] m/s
+  std::vector<std::int64_t> identity;      //!< [M] the same from state to state; -1: none
+  std::vector<double> disturbance;         //!< [M] m/s, see DisturbanceObserver; 0 unless it is in use
 
  private:
   int agents_ = 0;

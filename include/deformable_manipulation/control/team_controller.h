@@ -8,6 +8,7 @@
 #include "deformable_manipulation/control/controller_parameters.h"
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
+#include "deformable_manipulation/control/disturbance_observer.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
 #include "deformable_manipulation/control/safety_filter.h"
@@ -102,6 +103,7 @@ class TeamController {
   std::vector<std::unique_ptr<Barrier>> barriers_;
   VelocityEstimator velocities_;
   Differences differences_;
+  DisturbanceObserver disturbances_;
   SafetyFilter filter_;
 
   std::vector<Member> members_;
@@ -109,6 +111,7 @@ class TeamController {
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered
   PresentState present_;
+  std::vector<Vector3> moved_;  // [A] m/s, measured velocities of the held points
   PredictedState predicted_;
   Features features_;
   ConstraintRows rows_;

@@ -30,6 +30,13 @@ class PlanarObstacle : public Obstacle {
   PlanarObstacle(const std::vector<std::array<double, 2>>& points, const std::string& plane,
                  const Vector3& translation = Vector3::Zero(),
                  const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
+
+  //! A region with holes, or of several pieces: a point is in it if an odd number of rings are around it.
+  //! @param rings of corners as above, which do not cross or touch one another
+  //! @throw std::invalid_argument As above
+  PlanarObstacle(const std::vector<std::vector<std::array<double, 2>>>& rings, const std::string& plane,
+                 const Vector3& translation = Vector3::Zero(),
+                 const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
   ~PlanarObstacle() override;
 
   //! Moves the obstacle.

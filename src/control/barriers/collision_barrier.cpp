@@ -55,7 +55,8 @@ void CollisionBarrier::addRows(const Features& features, const PredictedState& s
       reach += team_.max_velocity * features.gradient(m, agent).lpNorm<1>();
     }
     const double h = predictedDistance(features, m, state) - parameters_.offset - margin;
-    const double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m));
+    const double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m)) +
+                           std::min(0.0, features.disturbance[m]);
     const double share = team_.formulation.shares ? shareOf(features, m) : 1.0;
     const double loose = looseness(features.distance[m] - features.distance[0], parameters_.band);
     const auto boundOf = [&](const PiecewiseLinearClassK& alpha) {
@@ -85,7 +86,8 @@ Vector3 CollisionBarrier::obstacleVelocity(const Features& features, int feature
 //! Distance [m] when the command starts to act, to first order.
 double CollisionBarrier::predictedDistance(const Features& features, int feature, const PredictedState& state) const {
   const Vector3 leader_velocity = leaderVelocity(state);
-  double rate = features.normal[feature].dot(leader_velocity - obstacleVelocity(features, feature));
+  double rate = features.normal[feature].dot(leader_velocity - obstacleVelocity(features, feature)) +
+                std::min(0.0, features.disturbance[feature]);
   for (const int assistant : team_.assistants) {
     rate += features.gradient(feature, assistant).dot(state.velocities[assistant] - leader_velocity);
   }

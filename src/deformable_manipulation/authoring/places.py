@@ -13,7 +13,8 @@ _SCENARIOS = Path("config") / "scenarios"
 class Places:
     """The files of a scenario.
 
-    ``launch_root`` is how launch files write the folder ``root`` that all three are in.
+    ``launch_root`` is how launch files write the folder ``root`` that all three are in;
+    ``package`` is the ROS package that it is the root of, or empty.
     """
 
     root: Path
@@ -21,6 +22,7 @@ class Places:
     scenario: Path
     launch: Path
     rviz: Path
+    package: str = ""
 
     @property
     def files(self) -> Tuple[Path, ...]:
@@ -47,12 +49,14 @@ def new_places(folder: Path, name: str) -> Places:
             folder / (name + ".launch"),
             folder / (name + ".rviz"),
         )
+    package = _package_name(manifest)
     return Places(
         folder,
-        "$(find {})".format(_package_name(manifest)),
+        "$(find {})".format(package),
         folder / _SCENARIOS / (name + ".yaml"),
         folder / "launch" / (name + ".launch"),
         folder / "rviz" / (name + ".rviz"),
+        package,
     )
 
 

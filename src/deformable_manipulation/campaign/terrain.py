@@ -28,7 +28,7 @@ def _hills(obstacle: PolygonObstacle, random: np.random.Generator) -> PolygonObs
     The surface is a sum of sines of random wavelengths, phases and heights; the ground below is as
     deep as that of the polygon.
     """
-    ring = np.array(obstacle.points)
+    ring = np.concatenate([np.array(ring) for ring in obstacle.rings])
     left, deep = ring.min(axis=0)
     right = ring[:, 0].max()
     surface = ring[ring[:, 1] > deep + 0.5 * (ring[:, 1].max() - deep), 1]

@@ -6,13 +6,14 @@ from itertools import combinations
 from typing import Iterator, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.failure import fail
+from deformable_manipulation.commands.last_word import say_after_parent
 from deformable_manipulation.commands.launch_arguments import (
     add_launch_arguments,
     launch_problems,
 )
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.limits import pair_limits
 from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
@@ -43,8 +44,14 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         if problems:
             raise ScenarioError(problems, "launch arguments")
     except ScenarioError as error:
-        print(error, file=sys.stderr)
+        if arguments.last_word:
+            say_after_parent(str(error))
+        else:
+            print(error, file=sys.stderr)
         return 1
+    misnamed = name_warning(scenario, arguments.scenario)
+    if misnamed:
+        print("check_scenario: WARNING: {}".format(misnamed), file=sys.stderr)
     if arguments.resolved:
         sys.stdout.write(scenario_to_yaml(scenario))
     else:
@@ -64,7 +71,7 @@ def _tell(scenario: Scenario, given: str) -> int:
     print("{}: correct".format(given))
     for line in (*summary(scenario), *inspection.facts):
         print("  {}".format(line))
-    for warning in (*_name_warnings(scenario, find_scenario(given).stem), *inspection.warnings):
+    for warning in inspection.warnings:
         print("check_scenario: WARNING: {}".format(warning), file=sys.stderr)
     return 0
 
@@ -87,18 +94,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _name_warnings(scenario: Scenario, file_name: str) -> Iterator[str]:
-    """``file_name`` is without its ending."""
-    if scenario.name != file_name:
-        yield "name: runs and pictures will be called '{}', but the file is called '{}'".format(
-            scenario.name, file_name
-        )
-
-
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
     if isinstance(spec, PolygonObstacle):
-        shape = "polygon of {} points, plane {}".format(len(spec.points), spec.plane)
+        shape = "polygon of {} points{}, plane {}".format(
+            sum(map(len, spec.rings)),
+            " in {} rings".format(len(spec.rings)) if len(spec.rings) > 1 else "",
+            spec.plane,
+        )
     else:
         scale = " x ".join("{:g}".format(s) for s in spec.scale)
         shape = "mesh {}, scale {}".format(spec.mesh, scale)

@@ -1,4 +1,4 @@
-"""The commands as console commands of an installation without ROS, by the name they are called by."""
+"""The console commands of an installation without ROS."""
 
 import os
 import sys

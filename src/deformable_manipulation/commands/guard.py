@@ -7,7 +7,11 @@ import sys
 from typing import Sequence
 
 from deformable_manipulation.commands.failure import fail
-from deformable_manipulation.system.interruption import exit_status, interruptible
+from deformable_manipulation.system.interruption import (
+    check_interruption,
+    exit_status,
+    interruptible,
+)
 
 CLOSED = 128 + signal.SIGPIPE  # exit status when the reader of a pipe has gone, as of other tools
 
@@ -36,9 +40,14 @@ def run_command(name: str, arguments: Sequence[str]) -> int:
 
 def _run(name: str, arguments: Sequence[str]) -> int:
     try:
-        return importlib.import_module(f"deformable_manipulation.commands.{name}").main(arguments)
+        command = importlib.import_module(f"deformable_manipulation.commands.{name}")
+        check_interruption()
+        return command.main(arguments)
     except SystemExit as stop:  # of argparse, with something printed
         return int(stop.code or 0)
+    except Exception:
+        check_interruption()  # libraries that are being loaded make other errors of it
+        raise
 
 
 def _discard_output() -> None:

@@ -2,7 +2,8 @@
 
 import argparse
 import os
-from typing import Iterator, Sequence
+import re
+from typing import Iterator, Optional, Sequence
 
 from deformable_manipulation.commands.arguments import overrides
 from deformable_manipulation.reading.errors import Problem
@@ -16,6 +17,8 @@ from deformable_manipulation.scenario.spec import (
 
 LEADER_INPUTS = ("waypoints", "hand")
 _BOOLS = ("true", "false")
+# Of a group in a launch file: a graph resource name of ROS.
+_NAMESPACE = re.compile(r"/?|/?[A-Za-z]\w*(?:/+[A-Za-z]\w*)*/?", re.ASCII)
 
 
 def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,6 +56,12 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         help="true: at least one obstacle must have motion.topic",
     )
     group.add_argument("--leader", metavar="NAME", help="name of the scenario's leader")
+    group.add_argument(
+        "--last-word",
+        action="store_true",
+        help="list mistakes after the program that started this one, roslaunch, has ended",
+    )
+    group.add_argument("--namespace", metavar="NAME", help="of the run: a legal ROS name")
     group.add_argument("--output", metavar="DIR", help="writable folder for a recording")
 
 
@@ -62,6 +71,7 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
         yield from _assistant_problems(arguments, scenario)
         yield from _knowledge_problems(scenario)
     yield from _choice_problems(arguments)
+    yield from _namespace_problems(arguments.namespace)
     yield from _cooperation_problems(arguments, scenario)
     yield from _drag_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
@@ -83,6 +93,15 @@ def _choice_problems(arguments: argparse.Namespace) -> Iterator[Problem]:
     ):
         if given is not None and given.lower() not in allowed:
             yield Problem(name, "allowed: {} or {}".format(*allowed[:2]), f"'{given}'")
+
+
+def _namespace_problems(namespace: Optional[str]) -> Iterator[Problem]:
+    if namespace is not None and not _NAMESPACE.fullmatch(namespace):
+        yield Problem(
+            "namespace",
+            "allowed: names of letters, digits and _ that start with a letter, separated by /",
+            f"'{namespace}'",
+        )
 
 
 def _drag_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:

@@ -4,6 +4,7 @@ import argparse
 import dataclasses
 import os
 import re
+import shlex
 import sys
 from pathlib import Path
 from typing import List, Mapping, Optional, Sequence
@@ -23,6 +24,7 @@ from deformable_manipulation.scenario import (
 )
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.system.package_files import PACKAGE, ros_package
 from deformable_manipulation.system.text_files import read_text
 
 NAME = "new_scenario"
@@ -37,6 +39,8 @@ EXAMPLES = """examples:
 
 exit status: 0 the files were written, 1 they were not (the reason is on stderr), 2 wrong usage
 """
+
+_SETUP_VARIABLE = "DEFORMABLE_MANIPULATION_SETUP"  # set where with_environment sourced it itself
 
 # REP-144, as for packages: the name becomes part of file names and of what roslaunch completes.
 _SCENARIO_NAME = re.compile(r"[a-z](?:_?[a-z0-9])+")
@@ -168,12 +172,28 @@ def _write(texts: Mapping[Path, str], expected: Scenario) -> None:
 
 def _next_steps(places: Places, name: str) -> List[str]:
     files = [os.path.relpath(str(file)) for file in places.files]
+    scenario, launch, _ = map(shlex.quote, files)
+    commands = [
+        f"check_scenario {scenario}",
+        f"run_scenario {scenario} --output {name}_run",
+        f"plot_run {name}_run",
+        f"rviz_snapshot {scenario}",
+    ]
     return [
         *files,
         "next:",
-        f"  check_scenario {files[0]}",
-        f"  run_scenario {files[0]} --output {name}_run",
-        f"  plot_run {name}_run",
-        f"  rviz_snapshot {files[0]}",
-        f"  roslaunch {files[1]}",
+        *(f"  {line}" for line in _environment(places)),
+        *(f"  rosrun {PACKAGE} {command}" for command in commands),
+        f"  roslaunch {launch}",
     ]
+
+
+def _environment(places: Places) -> List[str]:
+    """Lines for a shell in which the commands are not found yet."""
+    lines = []
+    setup = os.environ.get(_SETUP_VARIABLE)
+    if setup:
+        lines.append(f"source {shlex.quote(setup)}")
+    if places.package and ros_package(places.package) is None:
+        lines.append(f"# build and source the workspace of the package {places.package}")
+    return lines

@@ -10,6 +10,7 @@ from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.recording import RunData, RunDataError, read_run
 from deformable_manipulation.recording.frame_reader import read_frames
+from deformable_manipulation.recording.summary import describe_recorded
 
 NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")
@@ -51,6 +52,8 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return fail(NAME, f"cannot write the figures: {error}")
     for path in paths:
         print(path)
+    if arguments.numbers:
+        print(describe_recorded(run))
     if arguments.show:
         _show()
     return 0
@@ -79,6 +82,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="times [s] at which the overview shows the object (default: characteristic times)",
     )
     parser.add_argument("--namespace", help="which run, if the bag holds several")
+    parser.add_argument(
+        "--numbers", action="store_true", help="also print lowest distance, margins and errors"
+    )
     parser.add_argument("--show", action="store_true", help="also open the figures in windows")
     return parser.parse_args(argv)
 

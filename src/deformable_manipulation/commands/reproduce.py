@@ -24,6 +24,7 @@ This takes minutes and needs no display."""
 EXAMPLES = """examples:
   reproduce
   reproduce rope_one_assistant rope_two_assistants --output output/ropes
+  reproduce rope_one_assistant --campaign-runs 0          a minute or two
   reproduce --campaign-runs 200
   reproduce rope_one_assistant --no-pictures --set simulation.duration=40
 """

@@ -21,6 +21,7 @@ from deformable_manipulation.commands.arguments import (
     command_parser,
     folder_name,
 )
+from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
@@ -28,7 +29,11 @@ from deformable_manipulation.recording.provenance import machine, package_versio
 from deformable_manipulation.recording.run_files import atomic_file
 from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_to_yaml
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.system.interruption import exit_status, interruptible
+from deformable_manipulation.system.interruption import (
+    exit_status,
+    interruptible,
+    interrupts_ignored,
+)
 
 DESCRIPTION = """Run a scenario many times without ROS and count violated limits, deadlocks,
 relaxed programs and oscillation. Each run has a random smooth path of the leader, random obstacles
@@ -59,6 +64,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print(f"run_campaign: {error}", file=sys.stderr)
         return 1
     warn_of_standing_obstacles("run_campaign", scenario)
+    misnamed = name_warning(scenario, arguments.scenario)
+    if misnamed:
+        print(f"run_campaign: WARNING: {misnamed}", file=sys.stderr)
     with interruptible():
         return _run(campaign, arguments, folder)
 
@@ -220,12 +228,21 @@ def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int
     finally:
         progress.close()
     if not outcomes:
+        print("run_campaign: no run had ended: nothing is kept", file=sys.stderr)
         return code or 1
     outcomes.sort(key=lambda outcome: outcome.index)
     summary = summarise(outcomes, arguments.tolerance)
-    _write(campaign, arguments, outcomes, summary, time.perf_counter() - started, folder)
+    with interrupts_ignored():
+        _write(campaign, arguments, outcomes, summary, time.perf_counter() - started, folder)
     print(describe(summary))
     print(f"written to {folder}; the worst run: run_scenario {folder / 'worst.yaml'}")
+    if len(outcomes) < arguments.runs:
+        print(
+            f"run_campaign: only {len(outcomes)} of {arguments.runs} runs were done. They are kept "
+            f"in {folder / 'runs.csv'} and counted in {folder / 'campaign.json'}. For all, start "
+            "again with another --output: the same seed gives the same runs",
+            file=sys.stderr,
+        )
     return code or (0 if is_acceptable(summary) else UNACCEPTABLE)
 
 

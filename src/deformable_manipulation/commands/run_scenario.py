@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Optional, Sequence
 
 from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
 from deformable_manipulation.recording import RecordingError, RunRecorder
@@ -47,6 +48,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print(f"run_scenario: the scenario cannot be simulated: {error}", file=sys.stderr)
         return 1
     warn_of_standing_obstacles("run_scenario", scenario)
+    misnamed = name_warning(scenario, arguments.scenario)
+    if misnamed:
+        print(f"run_scenario: WARNING: {misnamed}", file=sys.stderr)
     _warn_of_start(loop, scenario.controller.collision.offset)
     _warn_of_poses(scenario)
     with interruptible():

@@ -19,6 +19,11 @@ class Status(IntEnum):
         """The status in words."""
         return _SENTENCES[self]
 
+    @property
+    def follows(self):
+        """Whether the assistant follows the leader, as far as its constraints allow."""
+        return self not in (Status.FAILED, Status.WAITING, Status.DISABLED)
+
 
 _SENTENCES = {
     Status.NOMINAL: "Follows the leader: no constraint changes the nominal velocity.",

@@ -18,4 +18,5 @@ def obstacle_corners(obstacle) -> np.ndarray:
         turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
         return scaled_mesh(obstacle)[0] @ turn + np.array(obstacle.translation)
     frame = PlaneFrame(obstacle.plane, obstacle.rotation)
-    return frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
+    corners = np.concatenate([np.array(ring) for ring in obstacle.rings])
+    return frame.lift(corners) + np.array(obstacle.translation)

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from deformable_manipulation import _distance
-from deformable_manipulation.geometry.mesh_files import scaled_mesh
+from deformable_manipulation.geometry.mesh_files import scaled_mended_mesh
 from deformable_manipulation.geometry.planes import PLANE_AXES
-from deformable_manipulation.geometry.polygons import check_ring
+from deformable_manipulation.geometry.polygons import check_rings
 from deformable_manipulation.scenario.spec import MeshObstacle
 
 _UNIT_TOLERANCE = 1e-6
@@ -44,11 +44,13 @@ class MinimumDistance:
 
     def __init__(self, obstacles, margin, band=0.1, triangles=None):
         problems = setting_problems(obstacles, margin, band, triangles)
-        native = []
+        native, warnings = [], []
         for spec in obstacles:
             if not pose_problems(spec):
                 try:
-                    native.append(_native_obstacle(spec))
+                    obstacle, found = _native_obstacle(spec)
+                    native.append(obstacle)
+                    warnings += named(spec, found)
                 except ValueError as error:
                     problems += named(spec, str(error).splitlines())
         if problems:
@@ -58,11 +60,7 @@ class MinimumDistance:
         self.names = tuple(spec.name for spec in obstacles)
         self._native = _distance.MinimumDistance(native, margin, band, list(self.names))
         #: Sentences about what was mended or ignored in the meshes.
-        self.warnings = tuple(
-            "obstacle {!r}: {}".format(spec.name, warning)
-            for spec, obstacle in zip(obstacles, native)
-            for warning in getattr(obstacle, "warnings", ())
-        )
+        self.warnings = tuple(warnings)
 
     def set_pose(self, index, pose):
         """Move an obstacle.
@@ -124,7 +122,7 @@ def setting_problems(obstacles, margin, band, triangles):
 
 
 def named(spec, faults):
-    """Faults of an obstacle, with its name."""
+    """Faults or warnings of an obstacle, with its name."""
     return ["obstacle {!r}: {}".format(spec.name, fault) for fault in faults]
 
 
@@ -153,11 +151,13 @@ def pose_problems(spec):
 
 
 def _native_obstacle(spec):
-    """The C++ core's obstacle. Raises ValueError where the shape is none."""
+    """The C++ core's obstacle, and warnings. Raises ValueError where the shape is none."""
     if isinstance(spec, MeshObstacle):
-        return _distance.MeshObstacle(*scaled_mesh(spec), spec.translation, spec.rotation)
-    ring = check_ring(spec.points)
-    return _distance.PlanarObstacle(ring, spec.plane, spec.translation, spec.rotation)
+        mesh = scaled_mended_mesh(spec)
+        obstacle = _distance.MeshObstacle(*mesh[:2], spec.translation, spec.rotation)
+        return obstacle, [*mesh.warnings(), *obstacle.warnings]
+    rings = check_rings(spec.points)
+    return _distance.PlanarObstacle(rings, spec.plane, spec.translation, spec.rotation), []
 
 
 def _are_numbers(values, count):

@@ -4,7 +4,8 @@ import numpy as np
 
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
-from deformable_manipulation.geometry.polygons import check_ring
+from deformable_manipulation.geometry.polygons import check_rings
+from deformable_manipulation.geometry.regions import oriented_rings, polygon_region
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle
 
@@ -93,13 +94,14 @@ class PolygonShape:
         self._shapely = shapely
         self._frame = PlaneFrame(spec.plane, spec.rotation)
         self._origin = np.asarray(spec.translation, dtype=float)
-        self._region = shapely.Polygon(check_ring(spec.points))
+        self._rings = check_rings(spec.points)
+        self._region = polygon_region(self._rings)
 
     def nearest(self, corners):
         """Distance [m] of a triangle to the boundary, and the weights (3,) of its corners there."""
         flat = self._frame.flatten(corners - self._origin)
         hull = self._shapely.MultiPoint(flat).convex_hull
-        ends = self._shapely.shortest_line(hull, self._region.exterior)
+        ends = self._shapely.shortest_line(hull, self._region.boundary)
         return ends.length, barycentric(np.array(ends.coords[0]), flat)
 
     def reaches_inside(self, corners, distance):
@@ -110,21 +112,21 @@ class PolygonShape:
     def signed(self, points):
         """Signed distances [m] of points (K, 3)."""
         flat = self._shapely.points(self._frame.flatten(points - self._origin))
-        unsigned = self._shapely.distance(self._region.exterior, flat)
+        unsigned = self._shapely.distance(self._region.boundary, flat)
         return np.where(self._shapely.contains(self._region, flat), -unsigned, unsigned)
 
     def foot(self, point):
         """The nearest point of the boundary, at the same place along the normal."""
         flat = self._frame.flatten(point - self._origin)
-        ends = self._shapely.shortest_line(self._region.exterior, self._shapely.Point(flat))
+        ends = self._shapely.shortest_line(self._region.boundary, self._shapely.Point(flat))
         return point + self._frame.lift(np.array(ends.coords[0]) - flat)
 
     def normal(self, point):
         """The boundary's outward normal near a point of it."""
         flat = self._frame.flatten(point - self._origin)
-        ring = self._shapely.geometry.polygon.orient(self._region).exterior
-        starts = np.array(ring.coords)
-        edges = self._shapely.linestrings(np.stack((starts[:-1], starts[1:]), axis=1))
+        rings = oriented_rings(self._rings)
+        sides = np.concatenate([np.stack((r, np.roll(r, -1, axis=0)), axis=1) for r in rings])
+        edges = self._shapely.linestrings(sides)
         edge = int(np.argmin(self._shapely.distance(edges, self._shapely.Point(flat))))
-        along = starts[edge + 1] - starts[edge]
+        along = sides[edge, 1] - sides[edge, 0]
         return self._frame.lift(np.array([along[1], -along[0]]) / np.linalg.norm(along))

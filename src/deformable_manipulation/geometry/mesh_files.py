@@ -1,38 +1,68 @@
 """Triangle meshes: reading them from files."""
 
-import io
-import re
 from pathlib import Path
-from typing import Any, Dict, Tuple
+from typing import Callable, Dict, Sequence, Tuple
 
 import numpy as np
 
+from deformable_manipulation.geometry.mesh_mending import MendedMesh, mended, without_unused
+from deformable_manipulation.mesh_formats import (
+    collada,
+    library,
+    obj,
+    off,
+    ply,
+    stl,
+    three_mf,
+)
+from deformable_manipulation.mesh_formats.faces import FormatError, RawMesh, without_collapsed
+from deformable_manipulation.mesh_formats.packed import unpacked
 from deformable_manipulation.system.text_files import TextFileError, read_bytes
 
 LARGEST_COORDINATE = 1e6  # m
 LARGEST_FILE = 1_000_000_000  # bytes, some million triangles in the most verbose format
-FORMATS = "OBJ, PLY, STL, OFF, glTF and GLB"
-_SETTINGS: Dict[str, Any] = dict(process=False, maintain_order=True, skip_materials=True)
-_ZERO = re.compile(rb"[ \t]0+(?=[/\s]|$)")
+FORMATS = "OBJ, PLY, STL, OFF, COLLADA (.dae), 3MF, glTF and GLB, also packed as .gz or .zip"
+_NO_ORIGIN = (0.0, 0.0, 0.0)
+_READERS: Dict[str, Callable[[bytes], RawMesh]] = {
+    "obj": obj.read,
+    "off": off.read,
+    "ply": ply.read,
+    "stl": stl.read,
+    "dae": collada.read,
+    "3mf": lambda data: three_mf.read(data, LARGEST_FILE),
+}
 
 
 class MeshError(ValueError):
     """A mesh cannot be read or has no triangles; the message says why, on one line."""
 
 
-def read_mesh(path) -> Tuple[np.ndarray, np.ndarray]:
-    """Read a mesh in any format that Trimesh reads: OBJ, PLY, STL, OFF, glTF and others.
+def read_mesh(path, origin: Sequence[float] = _NO_ORIGIN) -> Tuple[np.ndarray, np.ndarray]:
+    """Vertices and triangles of :func:`read_mended_mesh`."""
+    mesh = read_mended_mesh(path, origin)
+    return mesh.vertices, mesh.triangles
 
-    The parts of a scene are merged, where they are placed. Vertices at the same place are one;
-    those that no triangle has are left out; the others keep the file's order.
+
+def read_mended_mesh(path, origin: Sequence[float] = _NO_ORIGIN) -> MendedMesh:
+    """Read a mesh of one of FORMATS, or another one that Trimesh reads.
+
+    The parts of a scene are merged, where they are placed. Faces of more than three corners are
+    triangulated. Vertices at the same place are one; those that no triangle has are left out; the
+    others keep the file's order. What does not quite meet is mended
+    (:func:`.mesh_mending.mended`).
+
+    Args:
+        path: of the file.
+        origin: (3,) what is taken off all coordinates [units of the result].
 
     Returns:
-        vertices (V, 3) [units of the file] and triangles (T, 3), indices of vertices.
+        Its vertices (V, 3) are in the units of the file; those of COLLADA and 3MF, which tell
+        their unit, in m.
 
     Raises:
         MeshError: the file, which it names, cannot be read, is no regular file, has more than
             LARGEST_FILE bytes, is of no known format or broken, has no triangles (a point cloud),
-            or has coordinates that are not finite or beyond LARGEST_COORDINATE.
+            or has coordinates that are not finite or, from the origin, beyond LARGEST_COORDINATE.
     """
     try:
         data = read_bytes(path, LARGEST_FILE)
@@ -40,70 +70,70 @@ def read_mesh(path) -> Tuple[np.ndarray, np.ndarray]:
         raise MeshError("{} {}".format(path, error)) from error
     if not data:
         raise MeshError("{} is empty".format(path))
-    vertices, triangles = _parsed(path, data)
-    vertices, triangles = np.asarray(vertices, dtype=float), np.asarray(triangles)
-    fault = _fault(vertices, triangles)
+    try:
+        with np.errstate(all="ignore"):  # coordinates that are no numbers are refused below
+            raw = _parsed(str(path), data)
+    except FormatError as error:
+        raise MeshError("{}: {}".format(path, " ".join(str(error).split()))) from error
+    except Exception as error:  # a broken file may break a rule that no reader thought of
+        text = "{} is no mesh that can be read: it is broken; formats allowed: {}"
+        raise MeshError(text.format(path, FORMATS)) from error
+    vertices = np.asarray(raw.vertices, dtype=float)
+    fault = _fault(vertices, raw.triangles, np.asarray(origin, dtype=float))
     if fault:
         raise MeshError("{}: {}".format(path, fault))
-    return _merged(vertices, triangles.astype(np.int64))
+    return mended(*_merged(vertices - origin, raw.triangles.astype(np.int64)))
 
 
 def scaled_mesh(spec) -> Tuple[np.ndarray, np.ndarray]:
-    """Vertices [m] of the obstacle's own frame, and triangles, of a scenario.spec.MeshObstacle.
+    """Vertices and triangles of :func:`scaled_mended_mesh`."""
+    mesh = scaled_mended_mesh(spec)
+    return mesh.vertices, mesh.triangles
+
+
+def scaled_mended_mesh(spec) -> MendedMesh:
+    """The mesh of a scenario.spec.MeshObstacle, its vertices [m] of the obstacle's own frame.
 
     Raises:
-        MeshError: as of read_mesh.
+        MeshError: as of read_mended_mesh.
     """
-    vertices, triangles = read_mesh(spec.mesh)
-    return vertices * np.asarray(spec.scale, dtype=float), triangles
+    mesh = read_mended_mesh(spec.mesh, spec.origin)
+    return mesh._replace(vertices=mesh.vertices * np.asarray(spec.scale, dtype=float))
 
 
-def _parsed(path, data: bytes) -> Tuple[np.ndarray, np.ndarray]:
-    try:
-        import trimesh  # takes long to import, and not every run needs it
-    except ImportError as error:
-        raise MeshError("{}: meshes need the Python package trimesh".format(path)) from error
-    suffix = Path(str(path)).suffix.lower().lstrip(".")
-    if suffix not in trimesh.available_formats():
-        raise MeshError(
-            "{}: '{}' is no format of meshes that can be read; formats allowed: {}".format(
-                path, suffix, FORMATS
-            )
-        )
-    if suffix == "obj" and _has_face_of_vertex_0(data):
-        raise MeshError("{}: a face names vertex 0; OBJ counts vertices from 1".format(path))
-    resolver = trimesh.resolvers.FilePathResolver(str(path))
-    try:
-        scene = trimesh.load_scene(io.BytesIO(data), suffix, resolver=resolver, **_SETTINGS)
-        mesh = scene.to_mesh()
-        return mesh.vertices, mesh.faces
-    except Exception as error:  # whatever the parser of this format stumbles over
-        raise MeshError(
-            "{} is no mesh that can be read: it is broken, or no {} file; formats allowed: "
-            "{}".format(path, suffix.upper(), FORMATS)
-        ) from error
+def _parsed(path: str, data: bytes) -> RawMesh:
+    name, data = unpacked(path, data, LARGEST_FILE, _is_mesh)
+    suffix = _suffix(name)
+    if suffix in _READERS:
+        return _READERS[suffix](data)
+    if suffix not in library.formats():
+        text = "'{}' is no format of meshes that can be read; formats allowed: {}"
+        raise FormatError(text.format(suffix, FORMATS))
+    return library.read(data, suffix, path)
 
 
-def _has_face_of_vertex_0(data: bytes) -> bool:
-    """Whether a face of an OBJ file names vertex 0, which Trimesh takes for the last one."""
-    for zero in _ZERO.finditer(data):
-        line = data[data.rfind(b"\n", 0, zero.start()) + 1 : zero.start()]
-        if line.split(None, 1)[:1] == [b"f"] and b"#" not in line:
-            return True
-    return False
+def _suffix(name: str) -> str:
+    return Path(name).suffix.lower().lstrip(".")
 
 
-def _fault(vertices: np.ndarray, triangles: np.ndarray) -> str:
+def _is_mesh(name: str) -> bool:
+    return _suffix(name) in (*_READERS, "gltf", "glb")
+
+
+def _fault(vertices: np.ndarray, triangles: np.ndarray, origin: np.ndarray) -> str:
     """Why there is no mesh; empty if there is one."""
     if triangles.ndim != 2 or triangles.shape[1:] != (3,) or not len(triangles):
         return "there are no triangles in it"
-    outside = ~(np.abs(vertices) <= LARGEST_COORDINATE).all(axis=1)
-    if outside.any():
-        index = int(np.argmax(outside))
-        text = "vertex {} is ({:g}, {:g}, {:g}); coordinates must be finite and at most {:g}"
-        return text.format(index, *vertices[index], LARGEST_COORDINATE)
     if triangles.min() < 0 or triangles.max() >= len(vertices):
         return "a triangle refers to a vertex that there is not"
+    outside = ~(np.abs(vertices - origin) <= LARGEST_COORDINATE).all(axis=1)
+    if outside.any():
+        index = int(np.argmax(outside))
+        text = (
+            "vertex {} is ({:g}, {:g}, {:g}); coordinates must be finite and at most {:g} from the "
+            "origin"
+        )
+        return text.format(index, *vertices[index], LARGEST_COORDINATE)
     first, second, third = np.moveaxis(vertices[triangles], 1, 0)
     if not np.cross(second - first, third - first).any():
         return "no triangle in it has an area"
@@ -111,15 +141,12 @@ def _fault(vertices: np.ndarray, triangles: np.ndarray) -> str:
 
 
 def _merged(vertices: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-    used = np.zeros(len(vertices), dtype=bool)
-    used[triangles] = True
-    renumbered = np.cumsum(used) - 1
-    vertices, triangles = vertices[used], renumbered[triangles]
+    vertices, triangles = without_unused(vertices, triangles)
     first, same_as = _distinct(vertices + 0.0)  # -0 becomes 0
     order = np.argsort(first, kind="stable")
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
-    return np.ascontiguousarray(vertices[first[order]]), rank[same_as][triangles]
+    return np.ascontiguousarray(vertices[first[order]]), without_collapsed(rank[same_as][triangles])
 
 
 def _distinct(rows: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:

@@ -1,44 +1,53 @@
-"""Rings of polygons: reading them from CSV files and checking that they bound a region."""
+"""Rings of polygons: checking that they bound a region."""
 
 import math
-from typing import Iterable, List, Optional, Sequence, Tuple
-
-from deformable_manipulation.system.text_files import TextFileError, read_text
+from typing import Any, Iterable, List, Sequence, Tuple, Union
 
 Ring = Tuple[Tuple[float, float], ...]
+Rings = Tuple[Ring, ...]
+Points = Union[Ring, Rings]  # one ring, or several
 
 LARGEST_COORDINATE = 1e6  # m
 _FLATNESS = 1e-12  # twice the area of a triangle over its extent squared: below it is a line
 _SMALLEST_EXTENT = 1e-6  # m
-_REPORTED_LINES = 5
 
 
 class PolygonError(ValueError):
-    """A ring cannot be read or bounds no region; the message says why, on one line."""
+    """Rings cannot be read or bound no region; the message says why, on one line."""
 
 
-def read_ring(path) -> Ring:
-    """Read and check a ring from a CSV file of two columns [m].
+def has_several_rings(points: Sequence[Any]) -> bool:
+    """Whether points are rings of pairs of numbers, and not such pairs themselves."""
+    return len(points) > 0 and len(points[0]) > 0 and hasattr(points[0][0], "__len__")
 
-    Empty lines and what follows a ``#`` are passed over; the first other line may be a header.
 
-    Raises:
-        PolygonError: the file cannot be used; with line numbers where lines are wrong.
+def rings_of(points: Any) -> Rings:
+    """The rings, of which there may be only one."""
+    return tuple(points) if has_several_rings(points) else (points,)
+
+
+def points_of(rings: Rings) -> Points:
+    """A single ring as itself, others as rings."""
+    return rings[0] if len(rings) == 1 else rings
+
+
+def check_rings(points: Points) -> Rings:
+    """The rings of a region: a point is in it if an odd number of them are around the point.
+
+    A ring within another one is thus a hole, and rings side by side are pieces. Each ring is as of
+    :func:`check_ring`. Raises PolygonError where one is not, and where two cross or touch.
     """
-    try:
-        text = read_text(path)
-    except TextFileError as error:
-        raise PolygonError("{} {}".format(path, error)) from error
-    points, faults = _parse_rows(text)
-    if faults:
-        shown = faults[:_REPORTED_LINES]
-        if len(faults) > len(shown):
-            shown.append("and {} lines more".format(len(faults) - len(shown)))
-        raise PolygonError("{}: {}".format(path, "; ".join(shown)))
-    try:
-        return check_ring(points)
-    except PolygonError as error:
-        raise PolygonError("{}: {}".format(path, error)) from error
+    rings = rings_of(points)
+    if len(rings) == 1:
+        return (check_ring(rings[0]),)
+    checked = []
+    for index, ring in enumerate(rings):
+        try:
+            checked.append(check_ring(ring))
+        except PolygonError as error:
+            raise PolygonError("ring {}: {}".format(index, error)) from error
+    _refuse_meeting(checked)
+    return tuple(checked)
 
 
 def check_ring(points: Iterable[Sequence[float]]) -> Ring:
@@ -68,40 +77,6 @@ def check_ring(points: Iterable[Sequence[float]]) -> Ring:
         raise PolygonError("the polygon has no area: all its points lie on one line")
     _refuse_crossing(ring)
     return tuple(ring)
-
-
-def _parse_rows(text: str) -> Tuple[List[Tuple[float, float]], List[str]]:
-    """Points, and what is wrong with lines that hold none."""
-    points, faults = [], []
-    header_possible = True
-    for number, line in enumerate(text.splitlines(), start=1):
-        content = line.partition("#")[0].strip()
-        if not content:
-            continue
-        cells = [cell.strip() for cell in content.split(",")]
-        numbers = [value for value in map(_to_number, cells) if value is not None]
-        is_header = header_possible and not numbers
-        header_possible = False
-        if len(cells) != 2:
-            faults.append(
-                "line {} has {} columns, not 2 (separated by a comma)".format(number, len(cells))
-            )
-        elif is_header:
-            continue
-        elif len(numbers) < 2:
-            faults.append("line {}: '{}' are not two numbers".format(number, content[:40]))
-        elif not all(math.isfinite(value) for value in numbers):
-            faults.append("line {}: '{}' is not finite".format(number, content[:40]))
-        else:
-            points.append((numbers[0], numbers[1]))
-    return points, faults
-
-
-def _to_number(cell: str) -> Optional[float]:
-    try:
-        return float(cell)
-    except ValueError:
-        return None
 
 
 def _without_repeats(points: List[Tuple[float, float]]) -> List[Tuple[float, float]]:
@@ -137,3 +112,15 @@ def _refuse_crossing(ring: List[Tuple[float, float]]) -> None:
             ", ".join(place.rstrip("]").split()), reason.lower()
         )
     )
+
+
+def _refuse_meeting(rings: List[Ring]) -> None:
+    import shapely
+
+    lines = [shapely.LinearRing(ring) for ring in rings]
+    one, other = shapely.STRtree(lines).query(lines, predicate="intersects")
+    for i, j in zip(one.tolist(), other.tolist()):
+        if i < j:
+            place = shapely.get_coordinates(lines[i].intersection(lines[j]))[0]
+            text = "rings {} and {} cross or touch at ({:g}, {:g}); move them apart, or join them"
+            raise PolygonError(text.format(i, j, *place))

@@ -6,6 +6,8 @@ import numpy as np
 
 from deformable_manipulation.motion.smooth_path import SmoothPath
 
+_AT_START = 1e-3  # m
+
 
 class LeaderPath(SmoothPath):
     """The leader's way through its waypoints [m]; see :class:`~.smooth_path.SmoothPath`.
@@ -64,6 +66,7 @@ class LeaderController:
 
     def __init__(self, scenario):
         self._path = LeaderPath(scenario.leader.waypoints)
+        self._duration = max(0.0, scenario.leader.waypoints[-1].time)
         self._start = [float(value) for value in scenario.agents[scenario.leader_index].start]
         self._cycle_time = scenario.cycle_time
         self._max_return = scenario.controller.max_velocity
@@ -73,6 +76,15 @@ class LeaderController:
         """Forget the previous command: the leader is at rest."""
         self._time = None
         self._velocity = np.zeros(3)
+
+    def time_at(self, position):
+        """The time [s] at which the path comes nearest to a position (3,) [m]; 0 at the start."""
+        offset = np.asarray(position, dtype=float) - self._start
+        if np.abs(offset).max() < _AT_START:
+            return 0.0
+        times = np.arange(0.0, self._duration + self._cycle_time, self._cycle_time)
+        distances = np.linalg.norm(self._path.position(times) - offset, axis=1)
+        return float(times[distances.argmin()])
 
     def update(self, time, position):
         """Velocity command [m/s] (3,) for one state.

@@ -11,7 +11,8 @@ from deformable_manipulation.scenario import leader_workspace
 # RViz repeats that a marker is held four times per second.
 DRAG_TIMEOUT = 1.0  # s
 
-PATH, DRAGGED, STEERED, RESTING = "path", "dragged", "steered", "resting"
+PATH, WAITING = "path", "waiting"
+DRAGGED, STEERED, RESTING = "dragged", "steered", "resting"
 
 
 class Hand:
@@ -73,8 +74,10 @@ class Hand:
 class SteeredLeader:
     """The leader's velocity: along its path, or by hand from the first time that a hand takes it.
 
-    By hand it stays within ``leader.workspace``, ``leader.max_velocity`` and
-    ``leader.max_acceleration``. The path is taken up again by :meth:`reset`.
+    The path begins with the first state in which all who are to follow do, or which comes after
+    :meth:`start`; until then the leader stands still. By hand it stays within ``leader.workspace``,
+    ``leader.max_velocity`` and ``leader.max_acceleration``. A :meth:`reset` takes it back to the
+    start of its path.
 
     Args:
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
@@ -97,11 +100,28 @@ class SteeredLeader:
 
     def reset(self):
         """Back to the start: at rest, on the path again, out of everybody's hands."""
-        self._path.reset()
+        self._restart_path()
         self._hand.release()
         self._by_hand = not self._follows_path
         self._velocity = [0.0, 0.0, 0.0]
         self._time = None
+
+    def _restart_path(self):
+        self._path.reset()
+        self._origin = None  # s, time of the path's begin; None: it has not begun
+        self._told_to_start = False
+
+    def start(self):
+        """Begin the path with the next state, whoever follows.
+
+        Raises:
+            ValueError: it has begun, or the leader is moved by hand; the message says so.
+        """
+        if self._by_hand:
+            raise ValueError("the leader is moved by hand")
+        if self._origin is not None:
+            raise ValueError("the leader is on its path already")
+        self._told_to_start = True
 
     def drag(self, position):
         """As :meth:`Hand.drag`."""
@@ -119,21 +139,44 @@ class SteeredLeader:
 
     @property
     def source(self):
-        """What moves the leader: PATH, DRAGGED, STEERED or RESTING."""
-        return self._hand.source if self._by_hand else PATH
+        """What moves the leader: PATH, DRAGGED, STEERED or RESTING; WAITING before its path."""
+        if self._by_hand:
+            return self._hand.source
+        return WAITING if self._origin is None else PATH
 
-    def update(self, time, position):
-        """Velocity command [m/s] (3,) for one state; see LeaderController.update."""
+    def update(self, time, position, all_follow=True):
+        """Velocity command [m/s] (3,) for one state; see LeaderController.update.
+
+        Args:
+            time, position: of the state.
+            all_follow: whether all who are to follow the leader do.
+        """
         if not self._by_hand:
-            velocity = self._path.update(time, position)
-            self._velocity, self._time = velocity.tolist(), time
-            return velocity
+            return self._along_path(time, position, all_follow)
         if not np.isfinite([time, *position]).all():
             self._velocity = [0.0, 0.0, 0.0]
         elif self._time is None or time > self._time or time < self._time - 1.0:
             self._velocity = self._hand.velocity(position, self._velocity)
             self._time = time
         return np.array(self._velocity)
+
+    def _along_path(self, time, position, all_follow):
+        if self._time is not None and time < self._time - 1.0:  # time was set back
+            self._restart_path()
+        if self._origin is None and (all_follow or self._told_to_start):
+            self._begin_path(time, position)
+        velocity = np.zeros(3)
+        if self._origin is not None:
+            velocity = self._path.update(time - self._origin, position)
+        self._velocity, self._time = velocity.tolist(), time
+        return velocity
+
+    def _begin_path(self, time, position):
+        if not np.isfinite([time, *position]).all():
+            return
+        # A new node may find a leader that is on its way already.
+        passed = self._path.time_at(position) if time > 0.0 else 0.0
+        self._origin = time - passed
 
 
 def _three_finite(values, name):

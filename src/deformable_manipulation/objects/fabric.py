@@ -4,7 +4,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
@@ -64,12 +64,24 @@ class FabricSpec(ObjectSpec):
         default_text="at the origin, in the xy plane",
         native=True,
     )
+    mended: Tuple[str, ...] = dataclasses.field(default=(), compare=False, repr=False)
 
     type = "fabric"
     jacobian = "perturbed_copies"
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"
+
+    def warnings(self) -> Iterator[str]:
+        """See :meth:`.ObjectSpec.warnings`."""
+        yield from ("object.mesh: " + each for each in self.mended)
+        if self.stretching_compliance > _RUBBERY:
+            yield (
+                "object.stretching_compliance: a square sheet grows by {:g} m per newton along its "
+                "sides. Compliances are in m/N, and cloth has 1e-5 to 1e-3".format(
+                    self.stretching_compliance
+                )
+            )
 
     @property
     def particles(self) -> int:
@@ -123,17 +135,6 @@ class FabricSpec(ObjectSpec):
         pulled = _LARGEST_PULL * self.stretching_compliance * weight / mean_length
         return float(LARGEST_VALID_STRETCH + pulled)
 
-    def unlikely_material(self) -> Sequence[str]:
-        """See :meth:`.ObjectSpec.unlikely_material`."""
-        if self.stretching_compliance <= _RUBBERY:
-            return []
-        return [
-            "object.stretching_compliance: a square sheet grows by {:g} m per newton along its "
-            "sides. Compliances are in m/N, and cloth has 1e-5 to 1e-3".format(
-                self.stretching_compliance
-            )
-        ]
-
     def with_factors(self, stiffness: float, density: float) -> "FabricSpec":
         """See :meth:`.ObjectSpec.with_factors`."""
         return dataclasses.replace(
@@ -177,6 +178,7 @@ class FabricSpec(ObjectSpec):
     def to_mapping(self) -> Dict[str, Any]:
         """The section ``object`` as plain values, with the mesh inline."""
         mapping = super().to_mapping()
+        del mapping["mended"]
         mesh = {key: mapping.pop(key) for key in ("vertices", "triangles")}
         return {"type": mapping.pop("type"), "mesh": mesh, **mapping}
 
@@ -222,7 +224,7 @@ def read_fabric(node: Node) -> FabricSpec:
     if len(parts) < len(FABRIC.fields):
         raise Unreadable
     material = {key: value for key, value in parts.items() if key not in _SHAPE}
-    fabric = FabricSpec(vertices=mesh.vertices, triangles=mesh.triangles, **material)
+    fabric = FabricSpec(mesh.vertices, mesh.triangles, mended=mesh.warnings, **material)
     _check_body(node, fabric)
     return fabric
 

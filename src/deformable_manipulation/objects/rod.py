@@ -3,7 +3,7 @@
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Callable, Sequence, Tuple
+from typing import Callable, Iterator, Tuple
 
 import numpy as np
 
@@ -145,17 +145,15 @@ class RodSpec(ObjectSpec):
         """Both moduli have the same factor."""
         return self.with_factors(draw(), draw())
 
-    def unlikely_material(self) -> Sequence[str]:
-        """See :meth:`.ObjectSpec.unlikely_material`."""
-        return [
-            "object.{}: {:g} Pa is softer than soft foam. Moduli are in Pa, not in MPa or "
-            "GPa".format(key, modulus)
-            for key, modulus in (
-                ("young_modulus", self.young_modulus),
-                ("torsion_modulus", self.torsion_modulus),
-            )
-            if modulus < _SOFT_FOAM
-        ]
+    def warnings(self) -> Iterator[str]:
+        """See :meth:`.ObjectSpec.warnings`."""
+        for key in ("young_modulus", "torsion_modulus"):
+            modulus = getattr(self, key)
+            if modulus < _SOFT_FOAM:
+                yield (
+                    "object.{}: {:g} Pa is softer than soft foam. Moduli are in Pa, not in MPa or "
+                    "GPa".format(key, modulus)
+                )
 
     def _mass(self) -> float:
         """Of the whole rod [kg]."""

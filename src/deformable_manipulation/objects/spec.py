@@ -1,7 +1,7 @@
 """What every kind of object has."""
 
 from abc import ABC, abstractmethod
-from typing import Any, Callable, ClassVar, Dict, Optional, Sequence, Tuple
+from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
@@ -25,6 +25,10 @@ class ObjectSpec(ABC):
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]
+
+    def warnings(self) -> Iterator[str]:
+        """What was mended when it was read, and values of its material that are rarely meant."""
+        return iter(())
 
     @property
     @abstractmethod
@@ -67,10 +71,6 @@ class ObjectSpec(ABC):
     @abstractmethod
     def with_random_material(self, draw: Callable[[], float]) -> "ObjectSpec":
         """The same object of another material; each call of ``draw`` gives a factor."""
-
-    @abstractmethod
-    def unlikely_material(self) -> Sequence[str]:
-        """Sentences on values of its material that are allowed, and rarely meant."""
 
     @abstractmethod
     def description(self) -> str:

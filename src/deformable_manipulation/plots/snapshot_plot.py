@@ -7,8 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
-from deformable_manipulation.geometry.mesh_files import read_mesh
+from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.recording.frames import Frames
@@ -122,8 +124,13 @@ class SnapshotPlot:
     @_draw_obstacle.register
     def _(self, obstacle: PolygonObstacle, colour) -> None:
         frame = PlaneFrame(obstacle.plane, obstacle.rotation)
-        ring = frame.lift(np.array(obstacle.points)) + np.array(obstacle.translation)
-        self._axes.fill(*ring[:, self._plane].T, facecolor=colour, edgecolor=GROUND_EDGE)
+        codes, corners = [], []
+        for ring in obstacle.rings:
+            placed = frame.lift(np.array(ring)) + np.array(obstacle.translation)
+            corners += [placed[:, self._plane], placed[:1, self._plane]]
+            codes += [Path.MOVETO, *[Path.LINETO] * (len(ring) - 1), Path.CLOSEPOLY]
+        path = Path(np.concatenate(corners), codes)
+        self._axes.add_patch(PathPatch(path, facecolor=colour, edgecolor=GROUND_EDGE))
 
     @_draw_obstacle.register
     def _(self, obstacle: MeshObstacle, colour) -> None:
@@ -154,7 +161,7 @@ def boundary_edges(faces: np.ndarray) -> np.ndarray:
 
 def placed_mesh(obstacle: MeshObstacle) -> np.ndarray:
     """Corners (T, 3, 3) [m] of the triangles of a mesh, in the fixed frame."""
-    vertices, triangles = read_mesh(obstacle.mesh)
+    vertices, triangles = scaled_mesh(obstacle)
     columns = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
-    placed = (vertices * np.array(obstacle.scale)) @ columns + np.array(obstacle.translation)
+    placed = vertices @ columns + np.array(obstacle.translation)
     return placed[triangles]

@@ -4,9 +4,13 @@ import dataclasses
 import os
 from typing import Any, Tuple
 
-from deformable_manipulation.geometry.mesh_files import MeshError, read_mesh
+import numpy as np
+
+from deformable_manipulation.geometry.mesh_files import MeshError, read_mended_mesh
+from deformable_manipulation.geometry.mesh_mending import MendedMesh, split_at_corners
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
+from deformable_manipulation.reading.origin import origin_beside
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
     LARGEST_COORDINATE,
@@ -22,7 +26,7 @@ from deformable_manipulation.reading.readers import (
 from deformable_manipulation.system.package_files import resolve_file
 
 _LARGEST_INDEX = 2**31 - 1
-_FILE = "the name of a mesh file (OBJ, PLY, STL and others)"
+_FILE = "the name of a mesh file (OBJ, PLY, STL, COLLADA and others)"
 
 
 class _List:
@@ -49,6 +53,7 @@ class Mesh:
         _List(Array(3, Integer(0, _LARGEST_INDEX), "[i, j, k]"), "triangles of vertices from 0"),
         "Vertices of each triangle.",
     )
+    warnings: Tuple[str, ...] = ()  # what was mended
 
 
 class Scale:
@@ -91,19 +96,27 @@ class InlineMesh:
 
     def __call__(self, node: Node) -> Mesh:
         if isinstance(node.value, str) and node.value:
-            _, vertices, triangles = _read_file(node)
-            return Mesh(_tuples(vertices), _tuples(triangles))
+            _, mesh = _read_file(node)
+            return Mesh(_tuples(mesh.vertices), _tuples(mesh.triangles), tuple(mesh.warnings()))
         if not isinstance(node.value, dict):
             node.fail("must be {}".format(self.allowed))
         mesh = _INLINE(node)
         _check_triangles(node, mesh)
-        return mesh
+        return mesh if node.files_are_read else _split(mesh)
 
 
 def scaled(mesh: Mesh, scale: Vector) -> Mesh:
     """The mesh of a file in m."""
     vertices = tuple((scale[0] * x, scale[1] * y, scale[2] * z) for x, y, z in mesh.vertices)
-    return Mesh(vertices, mesh.triangles)
+    return dataclasses.replace(mesh, vertices=vertices)
+
+
+def _split(mesh: Mesh) -> Mesh:
+    """The mesh without vertices that lie on edges of triangles."""
+    split = split_at_corners(np.array(mesh.vertices), np.array(mesh.triangles))
+    if not split.splits:
+        return mesh
+    return Mesh(mesh.vertices, _tuples(split.triangles), tuple(split.warnings()))
 
 
 def _check_triangles(node: Node, mesh: Mesh) -> None:
@@ -124,14 +137,13 @@ def _check_triangles(node: Node, mesh: Mesh) -> None:
         raise Unreadable
 
 
-def _read_file(node: Node):
-    """Absolute path, vertices (V, 3) and triangles (T, 3) of the mesh file that a node names."""
+def _read_file(node: Node) -> Tuple[str, MendedMesh]:
+    """Absolute path and content of the mesh file that a node names."""
     try:
         path = os.path.abspath(str(resolve_file(node.value, node.directory)))
-        vertices, triangles = read_mesh(path)
+        return path, read_mended_mesh(path, origin_beside(node, 3))
     except (MeshError, FileNotFoundError) as error:
         node.fail(str(error))
-    return path, vertices, triangles
 
 
 def _tuples(array) -> Tuple[Tuple[Any, ...], ...]:

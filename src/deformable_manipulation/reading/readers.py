@@ -27,17 +27,26 @@ class Unreadable(Exception):
 
 
 class Report:
-    """Collects problems; knows the lines of the file's keys."""
+    """Collects problems; knows the lines of the file's keys, and the keys that ``--set`` gave."""
 
-    def __init__(self, lines: Optional[Mapping[Tuple[str, ...], int]] = None):
+    def __init__(
+        self,
+        lines: Optional[Mapping[Tuple[str, ...], int]] = None,
+        overridden: Iterable[Tuple[str, ...]] = (),
+    ):
         self.problems: List[Problem] = []
         self._lines = lines or {}
+        self._overridden = tuple(overridden)
 
     def add(self, path: Sequence[str], message: str, value: str = "") -> None:
         """Report a problem of the key at ``path``."""
-        line = self._lines.get(tuple(path))
+        path = tuple(path)
+        line = self._lines.get(path)
         # File names in messages may hold anything, line breaks included.
-        self.problems.append(Problem(".".join(path), " ".join(message.split()), value, line))
+        message = " ".join(message.split())
+        if any(path[: len(given)] == given for given in self._overridden):
+            message += " (given by --set)"
+        self.problems.append(Problem(".".join(path), message, value, line))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,6 +54,7 @@ class Node:
     """A raw value, the path of its key and where relative file names start.
 
     ``files_are_read``: the files that it names have been read and found right already.
+    ``section``: the mapping, or list, that it is an item of.
     """
 
     value: Any
@@ -52,10 +62,13 @@ class Node:
     report: Report
     directory: Path
     files_are_read: bool = False
+    section: Any = None
 
     def child(self, key, value) -> "Node":
         """The node of an item of this one."""
-        return dataclasses.replace(self, value=value, path=self.path + (key_text(key),))
+        return dataclasses.replace(
+            self, value=value, path=self.path + (key_text(key),), section=self.value
+        )
 
     def fail(self, message: str) -> NoReturn:
         """Report this node's value as wrong and raise Unreadable."""
@@ -83,7 +96,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return " did you mean '{}'?".format(matches[0]) if matches else ""
 
 
-def _to_float(value) -> Optional[float]:
+def to_float(value) -> Optional[float]:
     """The value as a float, None where it is no number; a number in a string is one."""
     if isinstance(value, bool) or not isinstance(value, (numbers.Real, str)):
         return None
@@ -136,7 +149,7 @@ class Number:
         return " and".join(bounds)
 
     def __call__(self, node: Node) -> float:
-        number = _to_float(node.value)
+        number = to_float(node.value)
         if number is None or not math.isfinite(number) or not self._within(number):
             node.fail("must be {}".format(self.allowed))
         return number
@@ -161,7 +174,7 @@ class Integer:
         self.allowed = "a whole number from {} to {}".format(at_least, at_most)
 
     def __call__(self, node: Node) -> int:
-        number = _to_float(node.value)
+        number = to_float(node.value)
         if (
             number is None
             or not self._at_least <= number <= self._at_most

@@ -2,12 +2,13 @@
 
 import json
 import math
-from typing import IO, Optional
+from typing import IO, Dict, List, Optional
 
 import numpy as np
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.provenance import machine, package_version
+from deformable_manipulation.recording.run_data import RunData
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
@@ -80,12 +81,46 @@ def write_summary(summary: dict, file: IO) -> None:
 
 def describe(summary: dict) -> str:
     """The main numbers for a reader at a terminal, one per line."""
+    duration = "{} of {:.2f} s simulated in {:.2f} s".format(
+        "whole run" if summary["completed"] else "stopped early: run",
+        summary["duration"],
+        summary["wall_time"],
+    )
+    return "\n".join([duration, *_outcome_lines(summary)])
+
+
+def describe_recorded(run: RunData) -> str:
+    """The same numbers of a recorded run, as far as its recording has them."""
+    status = np.concatenate([series.status for series in run.assistants])
+    min_distance = _lowest(run.distance)
+    violation = None
+    if min_distance is not None and run.offset is not None:
+        violation = max(0.0, run.offset - min_distance)
+    max_stretch = run.max_stretch
+    margins: Dict[str, List[np.ndarray]] = {}
+    for series in run.assistants:
+        for name, values in series.h.items():
+            margins.setdefault(name, []).append(values)
+    start, end = run.time_range
+    outcome = {
+        "min_distance": min_distance,
+        "offset": run.offset,
+        "worst_violation": violation,
+        "max_stretch": max_stretch,
+        "valid_stretch": run.valid_stretch,
+        "shape_valid": max_stretch is None or max_stretch <= run.valid_stretch,
+        "min_margin": {name: _lowest(np.concatenate(each)) for name, each in margins.items()},
+        "tracking_error": {
+            series.agent: _error_statistics(series.error_norm) for series in run.assistants
+        },
+        "qp_relaxed": int(np.count_nonzero(status == Status.RELAXED)),
+        "qp_failed": int(np.count_nonzero(status == Status.FAILED)),
+    }
+    return "\n".join(["recorded: {:.2f} s".format(end - start), *_outcome_lines(outcome)])
+
+
+def _outcome_lines(summary: dict) -> List[str]:
     lines = [
-        "{} of {:.2f} s simulated in {:.2f} s".format(
-            "whole run" if summary["completed"] else "stopped early: run",
-            summary["duration"],
-            summary["wall_time"],
-        ),
         "lowest distance            {} (offset {})".format(
             _millimetres(summary["min_distance"]), _millimetres(summary["offset"])
         ),
@@ -108,7 +143,7 @@ def describe(summary: dict) -> str:
             )
         )
     lines.append("QPs relaxed {qp_relaxed}, failed {qp_failed}".format(**summary))
-    return "\n".join(lines)
+    return lines
 
 
 def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 import rospy
 from geometry_msgs.msg import TwistStamped
-from std_msgs.msg import Header
+from std_msgs.msg import Bool, Header
 from std_srvs.srv import SetBool, Trigger
 
 from deformable_manipulation.msg import ControllerState
@@ -31,6 +31,8 @@ class AssistantLink:
             f"{name}/cmd_vel", TwistStamped, latch=rospy.get_param("~lockstep", False)
         )
         self._states = DirectPublisher(f"{name}/controller_state", ControllerState)
+        self._following = DirectPublisher(f"{name}/following", Bool, latch=True)
+        self._follows = None  # as published last
 
     def serve(self, enable, take_reference):
         """Offer the services; the callbacks get the assistant's name and the request."""
@@ -52,6 +54,9 @@ class AssistantLink:
 
     def report(self, state, decision):
         """Send what was decided on a state, and why, if anybody listens."""
+        if decision.status.follows != self._follows:
+            self._follows = decision.status.follows
+            self._following.publish(Bool(self._follows))
         if not self._states.get_num_connections():
             return
         message = fill_controller_state(ControllerState(), state, self.name, decision)

@@ -1,6 +1,7 @@
 """A controller's parameters changed while it runs (dynamic_reconfigure)."""
 
 import copy
+import math
 
 import rospy
 from dynamic_reconfigure.encoding import extract_params
@@ -55,11 +56,18 @@ def changed(scenario, values):
     return with_controller(scenario, section)
 
 
+class _UnclampedServer(Server):
+    """A server that hands on values beyond their range, so that they can be refused."""
+
+    def _clamp(self, config):
+        pass
+
+
 class LiveParameters:
     """Offers a controller's parameters on ``<name>/set_parameters``, first the scenario's values.
 
-    Changes are checked together; those that do not go with each other, or with the object, are
-    refused as a whole, with the reason in the parameter ``outcome`` and in the log.
+    Changes are checked together; those that are out of range, or do not go with each other or with
+    the object, are refused as a whole, with the reason in the parameter ``outcome`` and in the log.
 
     Args:
         scenario: the checked scenario.
@@ -71,7 +79,7 @@ class LiveParameters:
         self._scenario = scenario
         self._apply = apply
         _widen_ranges(values_of(scenario))
-        self._server = Server(ControllerConfig, self._change, rospy.resolve_name(name))
+        self._server = _UnclampedServer(ControllerConfig, self._change, rospy.resolve_name(name))
 
     def _change(self, config, level):
         present = values_of(self._scenario)
@@ -79,11 +87,12 @@ class LiveParameters:
             return _filled(config, present, "As in the scenario.")
         wanted = {name: config[name] for name in KEYS if config[name] != present[name]}
         try:
+            _check_ranges(wanted, present)
             scenario = changed(self._scenario, wanted)
             self._apply(scenario)
         except ValueError as error:
             outcome = "Nothing changed: " + _reason(error)
-            rospy.logwarn(outcome)
+            rospy.logerr(outcome)
             return _filled(config, present, outcome)
         self._scenario = scenario
         return _filled(config, values_of(scenario), "Changed: " + (", ".join(wanted) or "nothing"))
@@ -93,6 +102,24 @@ def _filled(config, values, outcome):
     config = copy.copy(config)
     config.update(values, outcome=outcome)
     return config
+
+
+def _check_ranges(wanted, present):
+    """Raises ValueError with all values that are out of the range that their sliders have."""
+    faults = []
+    for name, value in wanted.items():
+        least, most = ControllerConfig.min[name], ControllerConfig.max[name]
+        if not (_is_finite(value) and least <= value <= most):
+            faults.append(
+                f"{name} must be a number from {least:g} to {most:g}, not {value};"
+                f" it stays {present[name]:g}"
+            )
+    if faults:
+        raise ValueError(". ".join(faults) + ".")
+
+
+def _is_finite(value):
+    return isinstance(value, (int, float)) and math.isfinite(value)
 
 
 def _reason(error):

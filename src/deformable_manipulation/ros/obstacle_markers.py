@@ -11,12 +11,14 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
+from deformable_manipulation.geometry.regions import oriented_polygons, oriented_rings
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle
 
-# A mesh of more triangles is read from its file by RViz itself: to send it again and again for
-# viewers that come late would hold up the distances.
+# A mesh of more triangles is read from its file by RViz itself, if it knows the format: to send it
+# again and again for viewers that come late would hold up the distances.
 _MOST_TRIANGLES = 1000
+_FORMATS_OF_RVIZ = (".stl", ".dae", ".obj", ".ply")
 
 MOVING_OBSTACLES = "moving_obstacles"  # their namespace
 
@@ -75,14 +77,16 @@ def _draw_surface(marker, corners):
 
 def _draw_mesh(marker, obstacle):
     vertices, triangles = scaled_mesh(obstacle)
-    if len(triangles) > _MOST_TRIANGLES:
+    file = Path(obstacle.mesh)
+    turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
+    if len(triangles) > _MOST_TRIANGLES and file.suffix.lower() in _FORMATS_OF_RVIZ:
+        origin = np.multiply(obstacle.scale, obstacle.origin) @ turn
         marker.type = Marker.MESH_RESOURCE
-        marker.mesh_resource = Path(obstacle.mesh).as_uri()
+        marker.mesh_resource = file.as_uri()
         marker.color = ColorRGBA(*_GROUND, 1.0)
-        marker.pose = Pose(Point(*obstacle.translation), Quaternion(*obstacle.rotation))
+        marker.pose = Pose(Point(*(obstacle.translation - origin)), Quaternion(*obstacle.rotation))
         marker.scale = Vector3(*obstacle.scale)
         return
-    turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
     placed = vertices @ turn + obstacle.translation
     _draw_surface(marker, placed[triangles].reshape(-1, 3))
 
@@ -99,19 +103,20 @@ def _lit(corners):
 def _prism(obstacle, half_width):
     """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards."""
     plane = PlaneFrame(obstacle.plane, obstacle.rotation)
-    polygon = shapely.geometry.polygon.orient(shapely.Polygon(obstacle.points))
-    ring = shapely.get_coordinates(polygon)[:-1]
-    caps = _triangles(polygon)
+    caps = np.concatenate([_triangles(part) for part in oriented_polygons(obstacle.rings)])
     u, v = plane.lift(np.eye(2))
     across = half_width * np.cross(u, v)
 
     def lifted(corners):
         return plane.lift(corners) + np.array(obstacle.translation)
 
-    near, far = lifted(ring) - across, lifted(ring) + across
-    next_near, next_far = np.roll(near, -1, axis=0), np.roll(far, -1, axis=0)
-    sides = np.stack((near, next_near, far, far, next_near, next_far), axis=1).reshape(-1, 3)
-    return np.concatenate((lifted(caps[::-1]) - across, lifted(caps) + across, sides))
+    surface = [lifted(caps[::-1]) - across, lifted(caps) + across]
+    for ring in oriented_rings(obstacle.rings):
+        near, far = lifted(ring) - across, lifted(ring) + across
+        next_near, next_far = np.roll(near, -1, axis=0), np.roll(far, -1, axis=0)
+        sides = (near, next_near, far, far, next_near, next_far)
+        surface.append(np.stack(sides, axis=1).reshape(-1, 3))
+    return np.concatenate(surface)
 
 
 def _triangles(polygon):

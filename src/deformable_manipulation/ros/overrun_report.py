@@ -5,6 +5,9 @@ import rospy
 from deformable_manipulation.cycles.cycle_counter import CycleCounter
 from deformable_manipulation.ros import node
 
+_WARNING_PERIOD = 60.0  # s
+_REMEDY = "This machine is too slow for the run: lower controller.rate, or use lockstep:=true."
+
 
 def age_of(state):
     """Age [s] of a state by its stamp."""
@@ -20,10 +23,11 @@ class OverrunReport:
 
     def __init__(self, period):
         self.counter = CycleCounter(period)
-        self._warnings = node.Warnings()
+        self._warnings = node.Warnings(_WARNING_PERIOD)
         rospy.on_shutdown(lambda: rospy.loginfo(self.counter.summary))
 
     def answered(self, state):
         """A state has just been answered."""
         if self.counter.count(state, age_of(state)):
-            self._warnings.warn(self.counter.summary)
+            name = rospy.get_name()
+            self._warnings.warn(f"{name}: {self.counter.summary} {_REMEDY}")

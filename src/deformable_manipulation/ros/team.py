@@ -14,8 +14,7 @@ from deformable_manipulation.ros.assistant_link import AssistantLink
 from deformable_manipulation.ros.live_parameters import LiveParameters
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.target_markers import target_markers
-
-_NO_STATE = "Nothing changed: there is no state that can be used; see controller_state."
+from deformable_manipulation.ros.waiting_reason import WaitingReason
 
 
 class Team:
@@ -42,6 +41,7 @@ class Team:
         self._answered = None  # newest state answered
         self._observation = None  # of the newest state, while its inputs can be used
         self._stopped = False
+        self._waiting = WaitingReason()
         self._links = [AssistantLink(name, scenario.frame, counter) for name in names]
         self._markers = MarkerPublisher(self._draw)
         self._monitors = {name: DecisionMonitor() for name in names}
@@ -107,9 +107,12 @@ class Team:
     def _enable(self, name, request):
         with self._lock:
             if request.data and self._observation is None:
-                return SetBoolResponse(False, _NO_STATE)
+                return SetBoolResponse(False, self._no_state())
             self._controller.set_enabled(name, request.data)
         return SetBoolResponse(True, "Follows the leader." if request.data else "Stands still.")
+
+    def _no_state(self):
+        return f"Nothing changed: {self._waiting.clause(self._answered is not None)}."
 
     def _change_parameters(self, scenario):
         with self._lock:
@@ -118,7 +121,7 @@ class Team:
     def _take_reference(self, name, _request):
         with self._lock:
             if self._observation is None:
-                return TriggerResponse(False, _NO_STATE)
+                return TriggerResponse(False, self._no_state())
             try:
                 self._controller.take_reference(name, self._observation)
             except ValueError as error:

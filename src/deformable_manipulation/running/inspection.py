@@ -51,7 +51,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     warnings += _start_too_near(scenario, start)
     warnings += _path_warnings(scenario)
     warnings += _margin_warnings(scenario)
-    warnings += scenario.object.unlikely_material()
+    warnings += scenario.object.warnings()
     return Inspection(tuple(facts), tuple(warnings))
 
 

@@ -141,6 +141,17 @@ class _ControllerKeys:
         live=Live(("smoothing",), 0.0, 10.0),
         native=True,
     )
+    disturbance_filter: float = parameter(
+        Number("s", at_least=0.0, at_most=10.0),
+        "Time constant of the disturbance observer. It measures how fast a distance falls beyond "
+        "what the gradients and known velocities explain: the object swings, lags behind or is of "
+        "another material, or nobody tells the obstacle's velocity. The rows count with that rate. "
+        "Raise it for noisy poses; 0 switches it off.",
+        default=0.1,
+        paper=0.0,
+        live=Live(("disturbance_filter",), 0.0, 10.0),
+        native=True,
+    )
     perturbation: Vector = parameter(
         vector("m", smallest_size=_SMALLEST_PERTURBATION),
         "Displacement of the held point in the copy of each axis. It may be negative. Smaller "

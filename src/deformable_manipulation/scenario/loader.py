@@ -33,10 +33,11 @@ def load_scenario(path_or_name: Union[str, Path], overrides: Iterable[Override] 
 
     Raises ScenarioError with all problems found.
     """
+    overrides = tuple(overrides)
     path = find_scenario(str(path_or_name))
     document = read_document(path)
     raw, lines, problems = apply_overrides(document.value, document.lines, overrides)
-    report = Report(lines)
+    report = Report(lines, [tuple(key.split(".")) for key, _ in overrides])
     report.problems.extend(document.problems)
     report.problems.extend(problems)
     root = Node(raw, (), report, path.resolve().parent)

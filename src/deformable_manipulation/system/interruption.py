@@ -9,6 +9,7 @@ INTERRUPTED = 128 + signal.SIGINT  # exit status
 TERMINATED = 128 + signal.SIGTERM
 
 _pending: List[type] = []
+_contexts: list = []  # of interruptible() that have not ended
 
 
 class Terminated(KeyboardInterrupt):
@@ -31,17 +32,24 @@ def check_interruption() -> None:
 
 @contextlib.contextmanager
 def interruptible() -> Iterator[None]:
-    """SIGTERM (a batch system's or timeout's) ends the command as Ctrl-C does."""
+    """SIGTERM (a batch system's or timeout's) ends the command as Ctrl-C does.
+
+    What was raised is forgotten at the end of the outermost of these contexts.
+    """
+    outermost = not _contexts
 
     def interrupt(number, frame):
         _pending.append(Terminated if number == signal.SIGTERM else KeyboardInterrupt)
         check_interruption()
 
     with _signal_handler(signal.SIGINT, interrupt), _signal_handler(signal.SIGTERM, interrupt):
+        _contexts.append(interrupt)
         try:
             yield
         finally:
-            _pending.clear()
+            _contexts.pop()
+            if outermost:
+                _pending.clear()
 
 
 @contextlib.contextmanager

@@ -16,7 +16,7 @@ def package_share_directory() -> Path:
         for candidate in (parent, parent / "share" / PACKAGE):
             if _is_this_package(candidate):
                 return candidate
-    directory = _ros_package(PACKAGE)
+    directory = ros_package(PACKAGE)
     if directory is None:
         raise FileNotFoundError(
             "the files of package {} are not found; source the workspace's setup.bash".format(
@@ -33,7 +33,7 @@ def _is_this_package(directory: Path) -> bool:
     )
 
 
-def _ros_package(name: str) -> Optional[Path]:
+def ros_package(name: str) -> Optional[Path]:
     """The directory of a ROS package, None without ROS or without that package."""
     try:
         import rospkg
@@ -53,7 +53,7 @@ def resolve_file(text: str, directory: Path) -> Path:
     if not text.startswith(_PACKAGE_SCHEME):
         return directory / text
     package, _, rest = text[len(_PACKAGE_SCHEME) :].partition("/")
-    root = package_share_directory() if package == PACKAGE else _ros_package(package)
+    root = package_share_directory() if package == PACKAGE else ros_package(package)
     if root is None:
         raise FileNotFoundError("there is no ROS package '{}'".format(package))
     return root / rest

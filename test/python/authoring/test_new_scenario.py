@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -37,6 +38,42 @@ def test_a_scenario_from_a_template(tmp_path, capsys, kind):
     assert (scenario.name, scenario.object.type) == ("my_own", kind)
     assert "# What is carried." in files[0].read_text()
     assert rviz_configuration(files[0], scenario) == files[2]
+
+
+@pytest.mark.parametrize("sourced", [True, False])
+def test_the_printed_commands_run_as_they_are_printed(tmp_path, capsys, monkeypatch, sourced):
+    monkeypatch.chdir(tmp_path)
+    setup = os.environ.get("DEFORMABLE_MANIPULATION_SETUP")
+    if sourced:
+        monkeypatch.delenv("DEFORMABLE_MANIPULATION_SETUP", raising=False)
+    elif setup is None:
+        pytest.skip("needs a run by scripts/with_environment, which knows what to source")
+    assert main(["my_own", "--output", "a folder"]) == 0
+    lines = capsys.readouterr().out.split("next:\n")[1].splitlines()
+    source = [line for line in lines if line.strip().startswith("source ")]
+    assert bool(source) != sourced
+    check, run, plot, snapshot, launch = lines[len(source) :]
+    run += " --set simulation.duration=0.1"
+    outputs = [
+        subprocess.run(
+            ["bash", "-e", "-c", "\n".join([*source, line])],
+            check=True,
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+        ).stdout
+        for line in (check, run, plot, snapshot + " --help", launch + " --nodes")
+    ]
+    assert "my_own.yaml: correct" in outputs[0]
+    assert (tmp_path / "my_own_run" / "overview.png").is_file()
+    assert "/simulator" in outputs[-1].split()
+
+
+def test_a_package_that_ros_does_not_know_yet_is_named(tmp_path, capsys):
+    (tmp_path / "package.xml").write_text("<package><name>unbuilt_package</name></package>")
+    assert main(["my_own", "--output", str(tmp_path)]) == 0
+    assert "# build and source the workspace of the package unbuilt_package" in (
+        capsys.readouterr().out
+    )
 
 
 @pytest.mark.parametrize("name", ["rope_two_assistants", "fabric_three_assistants"])

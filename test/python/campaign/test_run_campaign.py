@@ -191,3 +191,23 @@ def test_a_cluster_without_workers(scheduler, tmp_path, monkeypatch, capsys):
     arguments = [*SHORT, "--runs", "1", "--output", str(tmp_path / "none")]
     assert run_campaign.main([*arguments, "--cluster", scheduler[0]]) == 1
     assert "no worker connected to the scheduler at tcp://127.0.0.1" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("done", [0, 1])
+def test_an_interrupted_campaign_says_what_it_kept(tmp_path, monkeypatch, capsys, done):
+    run_here = workers.run_here
+
+    def interrupted(campaign, indices, count):
+        yield from run_here(campaign, list(indices)[:done], count)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(workers, "run_here", interrupted)
+    folder = tmp_path / "interrupted"
+    status = run_campaign.main([*SHORT, "--runs", "3", "--output", str(folder)])
+    assert status == 128 + signal.SIGINT
+    last = capsys.readouterr().err.splitlines()[-1]
+    if done:
+        assert len(outcomes(folder)) == 1
+        assert f"only 1 of 3 runs were done. They are kept in {folder / 'runs.csv'}" in last
+    else:
+        assert last == "run_campaign: no run had ended: nothing is kept"

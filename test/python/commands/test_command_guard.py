@@ -8,9 +8,16 @@ import types
 import pytest
 
 from deformable_manipulation.commands.guard import run_command
+from deformable_manipulation.system.package_files import package_share_directory
 
 CHECK = [sys.executable, "-m", "deformable_manipulation.commands", "check_scenario"]
 CHECK += ["rope_one_assistant", "--resolved"]
+SCRIPTS = package_share_directory() / "scripts"
+COMMANDS = sorted(
+    path.name
+    for path in SCRIPTS.iterdir()
+    if "-m deformable_manipulation.commands" in path.read_text()
+)
 
 
 def test_a_full_disk():
@@ -48,3 +55,23 @@ def test_a_file_that_is_missing_is_named(monkeypatch, capfd):
 def test_the_exit_status_of_wrong_usage(capsys):
     assert run_command("check_scenario", ["a.yaml", "--nonsense"]) == 2
     assert "unrecognized arguments: --nonsense" in capsys.readouterr().err
+
+
+def test_an_interruption_that_a_library_turns_into_another_error(monkeypatch, capsys):
+    def main(arguments):
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            raise ImportError("initialization failed") from None
+
+    command = types.ModuleType("a_command")
+    command.main = main
+    monkeypatch.setitem(sys.modules, "deformable_manipulation.commands.a_command", command)
+    assert run_command("a_command", []) == 128 + signal.SIGINT
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_scripts_ignore_an_interruption_until_their_command_is_there(name):
+    lines = (SCRIPTS / name).read_text().splitlines()
+    assert lines[1].startswith("trap '' INT")

@@ -134,6 +134,7 @@ class HalfSpace:
             vertices=np.stack((vertex, vertex * 0, vertex * 0), axis=1),
             weights=np.tile((1.0, 0.0, 0.0), (count, 1)),
             obstacle_velocity=np.tile(self.velocity, (count, 1)),
+            identity=vertex,
         )
 
 

@@ -197,3 +197,32 @@ def test_rows_come_and_go_without_a_step():
     assert bounds[-1] <= -0.5 * 0.15  # u_max against a gradient of one half
     steps = np.diff(bounds)
     assert (steps < 0.0).all() and np.abs(steps).max() < 0.01
+
+
+def approached(disturbance_filter, told, cycles=100):
+    """The velocity of an assistant under whose rope a ground rises at 0.02 m/s."""
+    scenario = build.scenario(disturbance_filter=disturbance_filter)
+    controller = build.Alone(scenario)
+    positions = np.array([agent.start for agent in scenario.agents])
+    body = build.hanging_chain(2, 0.5)
+    velocity = (0.0, 0.0, 0.02) if told else (0.0, 0.0, 0.0)
+    ground = build.HalfSpace((0.0, 0.0, 1.0), 0.42)
+    for cycle in range(cycles):
+        risen = build.HalfSpace(ground.normal, ground.level + 0.02 * 0.01 * cycle, velocity)
+        observation = build.observe(0.01 * cycle, positions, body, risen, cycle=cycle)
+        decision = controller.update(observation)
+    return decision.command
+
+
+def test_an_obstacle_whose_velocity_nobody_tells_is_a_disturbance():
+    unaware, observed, told = (
+        approached(0.0, False)[2],
+        approached(0.1, False)[2],
+        approached(0.0, True)[2],
+    )
+    assert unaware < 0.5 * told
+    assert observed == pytest.approx(told, rel=0.05)
+
+
+def test_nothing_is_observed_of_what_is_told():
+    assert approached(0.1, True) == pytest.approx(approached(0.0, True), abs=1e-9)

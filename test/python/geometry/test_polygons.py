@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from deformable_manipulation.geometry.polygons import PolygonError, check_ring, read_ring
+from deformable_manipulation.geometry.polygon_files import read_rings
+from deformable_manipulation.geometry.polygons import PolygonError, check_ring
 
 TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
 
@@ -14,7 +15,8 @@ TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
 def read_text(tmp_path, text):
     path = tmp_path / "ring.csv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-    return read_ring(path)
+    (ring,) = read_rings(path)
+    return ring
 
 
 @pytest.mark.parametrize(
@@ -60,7 +62,7 @@ def test_files_that_are_refused(tmp_path, text, expected):
 @pytest.mark.parametrize("path", ["/dev/zero", "."])
 def test_what_is_no_regular_file_is_refused(path):
     with pytest.raises(PolygonError, match=f"^{path} "):
-        read_ring(path)
+        read_rings(path)
 
 
 def test_every_wrong_line_is_told(tmp_path):
@@ -71,7 +73,7 @@ def test_every_wrong_line_is_told(tmp_path):
 def test_missing_file_and_directory(tmp_path):
     for path in (tmp_path / "absent.csv", tmp_path):
         with pytest.raises(PolygonError, match="cannot be read"):
-            read_ring(path)
+            read_rings(path)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from deformable_manipulation.motion.steering import (
     PATH,
     RESTING,
     STEERED,
+    WAITING,
     SteeredLeader,
 )
 from deformable_manipulation.scenario import leader_workspace, load_scenario
@@ -124,14 +125,58 @@ def test_what_is_not_three_finite_numbers_is_refused_and_changes_nothing(by_hand
     assert by_hand.leader.source == RESTING
 
 
+def test_waits_until_all_follow_and_begins_its_path_then(scenario):
+    run, path = Run(scenario), LeaderController(scenario)
+    for cycle in range(500):
+        np.testing.assert_array_equal(run.leader.update(DT * cycle, run.position, False), 0.0)
+    assert run.leader.source == WAITING
+    for cycle in range(1000):
+        expected = path.update(DT * cycle, run.position)
+        all_follow = cycle == 0  # who stops later does not stop the leader
+        velocity = run.leader.update(DT * (500 + cycle), run.position, all_follow)
+        np.testing.assert_allclose(velocity, expected, 0.0, 1e-10)
+    assert run.leader.source == PATH
+
+
+def test_begins_its_path_when_it_is_told_to(scenario):
+    run = Run(scenario)
+    run.leader.update(0.0, run.position, False)
+    run.leader.start()
+    run.leader.update(DT, run.position, False)
+    assert run.leader.source == PATH
+    with pytest.raises(ValueError, match="on its path already"):
+        run.leader.start()
+    run.leader.drag(run.position)
+    with pytest.raises(ValueError, match="by hand"):
+        run.leader.start()
+    run.leader.reset()
+    run.leader.update(0.0, run.position, False)
+    assert run.leader.source == WAITING
+
+
+def test_a_new_node_goes_on_from_where_it_finds_the_leader(scenario):
+    run = Run(scenario).go(2000)
+    assert np.linalg.norm(run.velocity) > 0.01
+    anew = SteeredLeader(scenario)
+    for time in (3000 * DT, 3001 * DT):
+        velocity = anew.update(time, run.position)
+    assert np.linalg.norm(velocity - run.velocity) < 0.5 * np.linalg.norm(run.velocity)
+
+
+def test_waits_again_where_time_is_set_back(scenario):
+    run = Run(scenario).go(500)
+    run.leader.update(0.0, run.position, False)
+    assert run.leader.source == WAITING
+
+
 @pytest.mark.parametrize("follows_path, expected", [(True, PATH), (False, RESTING)])
 def test_a_reset_takes_it_out_of_the_hand(scenario, follows_path, expected):
     run = Run(scenario, follows_path=follows_path)
     run.go(50, lambda: run.leader.steer((0.0, 1.0, 0.0)))
     run.leader.reset()
-    assert run.leader.source == expected
     start = scenario.agents[scenario.leader_index].start
     np.testing.assert_array_equal(run.leader.update(0.0, start), 0.0)
+    assert run.leader.source == expected
 
 
 def test_a_state_is_answered_once_and_one_that_is_not_finite_with_zero(by_hand):

@@ -12,13 +12,34 @@ import socket
 import subprocess
 import threading
 import time
+from pathlib import Path
 
 HERE, THERE = "10.231.77.1", "10.231.77.2"
 _ETH_P_ALL = 3
+_NAMESPACES = Path("/run/netns")  # which iproute2 makes a mount point, and leaves as one
 
 
 def run(*command):
     subprocess.run(command, check=True, capture_output=True, text=True)
+
+
+@contextlib.contextmanager
+def no_mount_left():
+    """Undoes what the first network namespace of a machine has mounted."""
+    mounted, there = _is_mounted(_NAMESPACES), _NAMESPACES.exists()
+    try:
+        yield
+    finally:
+        if not mounted and _is_mounted(_NAMESPACES) and not any(_NAMESPACES.iterdir()):
+            run("umount", str(_NAMESPACES))
+            if not there:
+                _NAMESPACES.rmdir()
+
+
+def _is_mounted(folder):
+    # os.path.ismount does not see a folder that is mounted onto itself.
+    mounts = Path("/proc/self/mountinfo").read_text().splitlines()
+    return any(mount.split()[4] == str(folder) for mount in mounts)
 
 
 class LossyWire:

@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 import pytest
-from lossy_wire import HERE, THERE, two_computers
+from lossy_wire import HERE, THERE, no_mount_left, two_computers
 
 pytest.importorskip("rospy")
 
@@ -28,14 +28,15 @@ SCENARIO_CHANGES = (
 def _can_make_networks():
     if os.geteuid() != 0 or not shutil.which("ip") or not shutil.which("ethtool"):
         return False
-    tried = [
-        subprocess.run(["ip", "netns", *arguments], capture_output=True, check=False).returncode
-        for arguments in (
-            ("add", "dm_probe"),
-            ("exec", "dm_probe", "true"),  # fails in a chroot without /sys
-            ("delete", "dm_probe"),
-        )
-    ]
+    with no_mount_left():
+        tried = [
+            subprocess.run(["ip", "netns", *arguments], capture_output=True, check=False).returncode
+            for arguments in (
+                ("add", "dm_probe"),
+                ("exec", "dm_probe", "true"),  # fails in a chroot without /sys
+                ("delete", "dm_probe"),
+            )
+        ]
     return tried == [0, 0, 0]
 
 
@@ -116,7 +117,7 @@ def test_the_assistant_stops_when_the_link_is_cut_and_resumes(monkeypatch, tmp_p
     monkeypatch.setenv("ROS_MASTER_URI", f"http://{HERE}:{port}")
     monkeypatch.setenv("ROS_IP", HERE)
     log = StateLog()
-    with two_computers(DELAY, LOSS) as wire:
+    with no_mount_left(), two_computers(DELAY, LOSS) as wire:
         world = Launch(
             [
                 "--port",

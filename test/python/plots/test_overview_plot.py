@@ -71,5 +71,5 @@ def test_a_planar_obstacle_is_seen_in_its_plane():
     axes = Figure().subplots()
     SnapshotPlot(frames, axes).draw([0.0])
     (ground,) = axes.patches
-    assert ground.get_xy()[:-1].shape == (86, 2)
+    assert ground.get_path().vertices[:-1].shape == (86, 2)
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("y [m]", "z [m]")

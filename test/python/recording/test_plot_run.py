@@ -1,3 +1,4 @@
+import json
 import os
 import shutil
 
@@ -9,6 +10,7 @@ from synthetic_run import OFFSET, make_decision, make_record, make_scenario
 from deformable_manipulation.commands.plot_run import main
 from deformable_manipulation.plots.style import title_of
 from deformable_manipulation.recording import RunDataError, RunRecorder, read_run
+from deformable_manipulation.recording.summary import describe
 
 
 @pytest.fixture
@@ -182,3 +184,10 @@ def test_a_copy_of_the_folder_reads_the_same(run_folder, tmp_path):
 def test_times_after_the_end_are_refused(run_folder, capsys):
     assert main([str(run_folder), "--times", "500"]) == 1
     assert "500 s is after the end of the run" in capsys.readouterr().err
+
+
+def test_the_numbers_are_those_of_the_summary(run_folder, capsys):
+    assert main([str(run_folder), "--format", "png", "--numbers"]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    expected = describe(json.loads((run_folder / "summary.json").read_text())).splitlines()
+    assert printed[-len(expected) + 1 :] == expected[1:]

@@ -1,4 +1,5 @@
 import dataclasses
+import gzip
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from visualization_msgs.msg import Marker
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.scenario import load_scenario, package_share_directory
-from deformable_manipulation.scenario.spec import MeshObstacle, TopicMotion
+from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle, TopicMotion
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +34,14 @@ def test_the_piece_is_closed_and_faces_outwards(scenario, triangles):
     y, z = np.array(scenario.obstacles[0].points).T
     area = 0.5 * abs(np.dot(y, np.roll(z, -1)) - np.dot(z, np.roll(y, -1)))
     assert signed_volume(points) == pytest.approx(0.5 * area, rel=1e-9)
+
+
+def test_a_hole_is_left_free():
+    outline = ((0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0))
+    hole = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0))
+    (marker,) = obstacle_markers([PolygonObstacle("yard", (outline, hole))], "map").markers
+    points = np.array([(p.x, p.y, p.z) for p in marker.points]).reshape(-1, 3, 3)
+    assert signed_volume(points) == pytest.approx(0.5 * 11.5, rel=1e-9)
 
 
 def test_what_faces_upwards_is_lit(triangles):
@@ -75,6 +84,26 @@ def test_a_large_mesh_is_left_to_rviz(monkeypatch):
     assert (marker.scale.x, marker.scale.y, marker.scale.z) == CUBE.scale
     assert (marker.pose.position.x, marker.pose.orientation.z) == (1.0, 0.6)
     assert marker.color.a == 1.0
+
+
+def test_what_rviz_draws_itself_has_its_origin_taken_off(monkeypatch):
+    moved = dataclasses.replace(CUBE, origin=(0.5, 0.0, 1.0))
+    (drawn,) = obstacle_markers([moved], "map").markers
+    monkeypatch.setattr("deformable_manipulation.ros.obstacle_markers._MOST_TRIANGLES", 11)
+    (left,) = obstacle_markers([moved], "map").markers
+    place = np.array([left.pose.position.x, left.pose.position.y, left.pose.position.z])
+    corners = np.array([(p.x, p.y, p.z) for p in drawn.points])
+    np.testing.assert_allclose(corners[:, 2].min(), place[2])
+    np.testing.assert_allclose(0.5 * (corners.min(axis=0) + corners.max(axis=0))[:2], place[:2])
+
+
+def test_a_large_mesh_of_a_format_that_rviz_does_not_read(monkeypatch, tmp_path):
+    packed = tmp_path / "cube.obj.gz"
+    with open(CUBE.mesh, "rb") as file:
+        packed.write_bytes(gzip.compress(file.read()))
+    monkeypatch.setattr("deformable_manipulation.ros.obstacle_markers._MOST_TRIANGLES", 11)
+    (marker,) = obstacle_markers([dataclasses.replace(CUBE, mesh=str(packed))], "map").markers
+    assert marker.type == Marker.TRIANGLE_LIST and len(marker.points) == 36
 
 
 def test_a_moving_obstacle_is_drawn_in_a_frame_of_its_own():

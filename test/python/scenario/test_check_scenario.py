@@ -1,10 +1,15 @@
 """The command check_scenario."""
 
+import subprocess
+import sys
+
 import pytest
 import yaml
 
 from deformable_manipulation.commands.check_scenario import main
 from deformable_manipulation.scenario import load_scenario, scenario_from_mapping
+
+CHECK = f"{sys.executable} -m deformable_manipulation.commands check_scenario"
 
 
 @pytest.fixture
@@ -43,6 +48,30 @@ def test_surfaces_without_an_inside_are_told(path, mapping, capsys):
     assert main([str(path)]) == 0
     output = capsys.readouterr()
     assert "WARNING: obstacle 'sheet': " in output.err and "no sign" in output.err
+
+
+TORN = (
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 1 0\n"
+    "f 1 2 3\nf 1 3 4\nf 2 6 5\nf 5 6 7\nf 5 7 3\n"
+)
+
+
+def test_triangles_that_were_split_are_told(fabric_mapping, tmp_path, capsys):
+    (tmp_path / "torn.obj").write_text(TORN)
+    path = tmp_path / "small.yaml"
+    del fabric_mapping["object"]["size"], fabric_mapping["object"]["resolution"]
+    fabric_mapping["object"]["mesh"] = "torn.obj"
+    fabric_mapping["agents"]["helper"]["particle"] = 1
+    fabric_mapping["obstacles"] = [
+        {"name": "sheet", "mesh": "torn.obj", "translation": [0.0, 0.0, -9.0]}
+    ]
+    path.write_text(yaml.safe_dump(fabric_mapping))
+    assert main([str(path)]) == 0
+    output = capsys.readouterr()
+    told = "1 place where a vertex lies on the edge of a triangle that does not have it"
+    assert "WARNING: object.mesh: " + told in output.err
+    assert "WARNING: obstacle 'sheet': " + told in output.err
+    assert "(1, 0.5, 0)" in output.err and "6 triangles" in output.out
 
 
 def test_material_of_a_fabric(fabric_mapping, tmp_path, capsys):
@@ -162,6 +191,8 @@ def test_a_launch_s_own_arguments(path, capsys, tmp_path):
         (["--leader", "helper"], "leader:=hand"),
         (["--output", "/nowhere"], "'/nowhere' \u2014 does not exist"),
         (["--output", "/dev/null"], "is not a folder"),
+        (["--namespace", "left-hand"], "namespace: 'left-hand' \u2014 allowed: names of letters"),
+        (["--namespace", "/1/left"], "that start with a letter"),
     ],
 )
 def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
@@ -169,6 +200,40 @@ def test_mistakes_in_a_launch_s_own_arguments(path, capsys, options, expected):
     output = capsys.readouterr()
     assert output.out == ""
     assert expected in output.err
+
+
+@pytest.mark.parametrize("namespace", ["/", "left", "/left/", "cell_1/left"])
+def test_namespaces_of_a_launch(path, namespace):
+    assert main([str(path), "--namespace", namespace]) == 0
+
+
+def test_mistakes_are_the_last_words_after_those_of_the_program_that_checks(tmp_path):
+    wrong = tmp_path / "wrong.yaml"
+    wrong.write_text("colour: red\n")
+    command = f"{CHECK} --last-word --resolved {wrong} || echo 'it failed' >&2; exit 1"
+    done = subprocess.run(
+        ["bash", "-c", command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout) == (1, "")
+    lines = done.stderr.splitlines()
+    assert lines[0] == "it failed"
+    assert lines[1].startswith(str(wrong)) and "colour" in done.stderr
+
+
+def test_the_name_of_a_copy_is_told_for_launches_too(path, capsys):
+    assert main(["--resolved", str(path), "--set", "name=copied"]) == 0
+    assert "will be called 'copied'" in capsys.readouterr().err
+
+
+def test_mistakes_of_set_say_so(path, capsys):
+    assert main([str(path), "--set", "controller.gain=abc", "--set", "object.colour=red"]) == 1
+    mistakes = capsys.readouterr().err.splitlines()[1:]
+    assert len(mistakes) == 2
+    assert all(line.endswith("(given by --set)") for line in mistakes)
 
 
 def test_imperfect_knowledge_is_not_for_launches(path, capsys):

@@ -101,6 +101,16 @@ def test_file_and_scale(inline, change, tmp_path):
     assert len(fabric.triangles) == 2
 
 
+def test_an_inline_mesh_is_split_where_it_would_tear(inline, change, tmp_path):
+    change(inline, "object.mesh.vertices", [*SQUARE["vertices"], [0.5, 0.5, 0.0]])
+    change(inline, "object.mesh.triangles", [[0, 1, 2], [0, 4, 3], [4, 2, 3]])
+    scenario = scenario_from_mapping(inline, tmp_path)
+    assert len(scenario.object.vertices) == 5 and len(scenario.object.triangles) == 4
+    assert "(0.5, 0.5, 0)" in next(scenario.object.warnings())
+    again = scenario_from_mapping(scenario_to_mapping(scenario), "/nowhere")
+    assert again == scenario and not list(again.object.warnings())
+
+
 def test_places_and_limits(fabric_mapping, tmp_path):
     del fabric_mapping["agents"]["helper"]["start"]
     fabric_mapping["object"]["pose"] = {
@@ -119,6 +129,7 @@ def test_places_and_limits(fabric_mapping, tmp_path):
 
 @pytest.mark.parametrize("time_step, substeps", [(0.01, 10), (0.02, 20), (0.0005, 1)])
 def test_substeps_suit_the_object(fabric_mapping, mapping, change, tmp_path, time_step, substeps):
+    change(fabric_mapping, "object.stretching_compliance", 1e-2)
     change(fabric_mapping, "simulation.time_step", time_step)
     assert scenario_from_mapping(fabric_mapping, tmp_path).simulation.substeps == substeps
     change(mapping, "simulation.time_step", time_step)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.scenario import (
     package_share_directory,
     scenario_from_mapping,
@@ -87,3 +88,23 @@ def test_files_of_a_checked_mapping_are_not_read_again(cube, change):
     change(cube, "obstacles.1.mesh", "/nowhere/cube.obj")
     scenario = scenario_from_mapping(cube, "/nowhere", files_are_read=True)
     assert scenario.obstacles[1].mesh == "/nowhere/cube.obj"
+
+
+FAR = "v 600000 5400000 0\nv 600001 5400000 0\nv 600000 5400001 0\nf 1 2 3\n"
+
+
+def test_an_origin_is_taken_off(cube, change, problems_of, tmp_path):
+    (tmp_path / "far.obj").write_text(FAR)
+    change(cube, "obstacles.1.mesh", str(tmp_path / "far.obj"))
+    assert "at most 1e+06 from the origin" in problems_of(cube)["obstacles.1.mesh"]
+    change(cube, "obstacles.1.origin", [600000, 5400000, 0])
+    scenario = scenario_from_mapping(cube, tmp_path)
+    assert scenario.obstacles[1].origin == (600000.0, 5400000.0, 0.0)
+    vertices = scaled_mesh(scenario.obstacles[1])[0]
+    assert vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    assert scenario_from_mapping(scenario_to_mapping(scenario), "/nowhere") == scenario
+
+
+def test_a_wrong_origin_is_told_once(cube, change, problems_of):
+    found = problems_of(change(cube, "obstacles.1.origin", [1, 2]))
+    assert list(found) == ["obstacles.1.origin"]

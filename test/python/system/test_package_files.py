@@ -24,8 +24,8 @@ def test_share_directory_of_an_install_space(tmp_path, monkeypatch):
 def test_share_directory_passes_over_other_packages(tmp_path, monkeypatch):
     (tmp_path / "package.xml").write_text("<package><name>another</name></package>")
     monkeypatch.setattr(package_files, "__file__", str(tmp_path / "package_files.py"))
-    monkeypatch.setattr(package_files, "_ros_package", lambda name: Path("/by/ros") / name)
+    monkeypatch.setattr(package_files, "ros_package", lambda name: Path("/by/ros") / name)
     assert package_share_directory() == Path("/by/ros/deformable_manipulation")
-    monkeypatch.setattr(package_files, "_ros_package", lambda name: None)
+    monkeypatch.setattr(package_files, "ros_package", lambda name: None)
     with pytest.raises(FileNotFoundError, match="setup.bash"):
         package_share_directory()

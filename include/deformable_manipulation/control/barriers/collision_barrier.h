@@ -34,6 +34,9 @@ struct CollisionParameters {
 //! that moves as one with the leader along the obstacle is not held back. Where all assistants are commanded
 //! together, as is a single one, s = 1: sum_i g_i . u_i + g_leader . v_leader - n . w >= -alpha(h).
 //!
+//! A disturbance (see DisturbanceObserver) that lets the distance fall adds to n . (v_leader - w); one that lets it
+//! grow is not relied on.
+//!
 //! The rows stay above the offset by margin + speed_margin |v_leader|, and take the distance as predicted for
 //! the time when the command acts. A second row of the same form for each feature, a wish
 //! with a gentler slope, asks earlier for what the first will demand. Towards the edge of the band both

@@ -8,8 +8,8 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Appends a problem if a ring crosses or touches itself.
-void checkCrossings(const PlanarRing& ring, const EdgeTree& tree, std::vector<std::string>* problems);
+//! Appends a problem if a boundary crosses or touches itself.
+void checkCrossings(const PlanarBoundary& boundary, const EdgeTree& tree, std::vector<std::string>* problems);
 
 }  // namespace distance
 }  // namespace deformable_manipulation

@@ -1,4 +1,4 @@
-#include "ring_crossing.h"
+#include "boundary_crossing.h"
 
 #include <sstream>
 
@@ -17,18 +17,18 @@ bool meet(const Segment2& one, const Segment2& other) {
 }
 
 //! The first edge that another one meets, or folds back onto where it follows it; -1 if there is none.
-int edgeMeeting(const PlanarRing& ring, const EdgeTree& tree, int edge) {
-  const Segment2& segment = ring.edge(edge);
-  const int next = (edge + 1) % ring.size();
-  const Point2 after = ring.edge(next).direction;
+int edgeMeeting(const PlanarBoundary& boundary, const EdgeTree& tree, int edge) {
+  const Segment2& segment = boundary.edge(edge);
+  const int next = boundary.next(edge);
+  const Point2 after = boundary.edge(next).direction;
   if (cross(segment.direction, after) == 0.0 && dot(segment.direction, after) < 0.0) {
     return next;
   }
   int found = -1;
   tree.visitNear(SegmentBound(segment), tree.limitFor(0.0, segment.middle), [&](const EdgeGroup& group) {
     for (int other : group.index) {
-      const bool adjacent = other == edge || other == next || (other + 1) % ring.size() == edge;
-      if (!adjacent && meet(segment, ring.edge(other))) {
+      const bool adjacent = other == edge || other == next || other == boundary.previous(edge);
+      if (!adjacent && meet(segment, boundary.edge(other))) {
         found = other;
       }
     }
@@ -38,11 +38,12 @@ int edgeMeeting(const PlanarRing& ring, const EdgeTree& tree, int edge) {
 
 }  // namespace
 
-void checkCrossings(const PlanarRing& ring, const EdgeTree& tree, std::vector<std::string>* problems) {
-  for (int edge = 0; edge < ring.size(); ++edge) {
-    const int other = edgeMeeting(ring, tree, edge);
+void checkCrossings(const PlanarBoundary& boundary, const EdgeTree& tree, std::vector<std::string>* problems) {
+  for (int edge = 0; edge < boundary.size(); ++edge) {
+    const int other = edgeMeeting(boundary, tree, edge);
     if (other >= 0) {
-      const Point2 one = ring.edge(edge).start + ring.origin(), two = ring.edge(other).start + ring.origin();
+      const Point2 one = boundary.edge(edge).start + boundary.origin(),
+                   two = boundary.edge(other).start + boundary.origin();
       std::ostringstream text;
       text << "the polygon crosses or touches itself: the edges that begin at (" << one.u << ", " << one.v << ") and ("
            << two.u << ", " << two.v << ") meet";
