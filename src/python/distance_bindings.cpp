@@ -70,8 +70,7 @@ PYBIND11_MODULE(_distance, module) {
              return NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band),
                                          std::make_shared<const std::vector<std::string>>(std::move(names))};
            }),
-           py::arg("obstacles"), py::arg("margin"), py::arg("band"),
-           py::arg("names") = std::vector<std::string>())
+           py::arg("obstacles"), py::arg("margin"), py::arg("band"), py::arg("names") = std::vector<std::string>())
       .def("compute", &compute, py::arg("points"), py::arg("triangles") = py::none(),
            "Distances of points (C, P, 3) [m] with triangles (T, 3), or None for a polyline. Raises ValueError for "
            "another shape or numbers that are not finite.");

@@ -56,11 +56,13 @@ void bindFabric(py::module_& module) {
            py::arg("threads") = 1, py::arg("gravity"), py::arg("position") = Vector3::Zero().eval(),
            py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0))
       .def("effective_compliance", &Fabric::effectiveCompliance, py::arg("substep"),
-           "The stretching compliance [m/N] that it comes to with substeps of this length [s]: that of the material, or\n"
+           "The stretching compliance [m/N] that it comes to with substeps of this length [s]: that of the material, "
+           "or\n"
            "more where its springs are too stiff for the mesh, its mass and the substep.")
       .def("substeps_for_stiffness", &Fabric::substepsForStiffness, py::arg("time_step"), py::arg("least"),
            py::arg("most"),
-           "The least number of substeps of a time step [s], from least to most, with which it has the stiffness of its\n"
+           "The least number of substeps of a time step [s], from least to most, with which it has the stiffness of "
+           "its\n"
            "material; most where none is enough.");
 }
 

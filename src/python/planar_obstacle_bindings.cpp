@@ -33,7 +33,8 @@ void bindPlanarObstacle(py::module_& module) {
   PlanarObstacleClass polygon(
       module, "PlanarObstacle",
       "A polygon in a plane, endless along the plane's normal.\n\n"
-      "Args: points (K, 2) [m], corners of a simple polygon of either orientation, or rings, a list of such: what an odd\n"
+      "Args: points (K, 2) [m], corners of a simple polygon of either orientation, or rings, a list of such: what an "
+      "odd\n"
       "number of them enclose is inside. They are on the two of the obstacle's axes that plane names ('xy', 'yz' or\n"
       "'xz'). translation (3,) [m] and rotation (4,), quaternion x, y, z, w: of the obstacle in the fixed frame.\n"
       "Raises ValueError with all mistakes at once.");
