@@ -5,7 +5,7 @@ namespace distance {
 namespace {
 
 constexpr double kCornerTolerance = 1e-9;  // m, so that no crossing slips through between two edges
-constexpr double kRounding = 1e-13;        // m
+constexpr double kDepthRounding = 1e-13;   // m
 
 //! The parameter between two at which a segment is equally far from two edges, as near to one as to the other.
 //! @param first where edge a is nearer than edge b
@@ -116,7 +116,7 @@ void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double fl
   const double a_at_last = a.distance(segment.at(last.parameter));
   const double b_at_first = b.distance(segment.at(first.parameter));
   const double ceiling = std::min(std::max(first.depth, a_at_last), std::max(last.depth, b_at_first));
-  const bool one_edge_bounds = b_at_first - first.depth <= kRounding || a_at_last - last.depth <= kRounding;
+  const bool one_edge_bounds = b_at_first - first.depth <= kDepthRounding || a_at_last - last.depth <= kDepthRounding;
   if (one_edge_bounds || ceiling < floor) {
     return;
   }
@@ -130,7 +130,7 @@ void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double fl
   }
   const DeepPoint2 middle = pointAt(segment, parameter, first.edge);
   evaluated_.push_back(middle);
-  if (middle.depth < distance - kRounding) {
+  if (middle.depth < distance - kDepthRounding) {
     pieces_.push_back({middle, last});
     pieces_.push_back({first, middle});
   }
