@@ -7,11 +7,11 @@ namespace distance {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStraight = 1e-12;        // sine of the turn at a corner that is none
-constexpr double kAngleTolerance = 1e-6;   // rad, directions less apart than this count as one
-constexpr std::size_t kMostCompared = 64;  // edges that are compared pair by pair
-constexpr double kSmallestCell = 1e-14;    // of the region's size
-constexpr double kRounding = 1e-15;        // of distances, as a part of the region's size
+constexpr double kStraight = 1e-12;          // sine of the turn at a corner that is none
+constexpr double kAngleTolerance = 1e-6;     // rad, directions less apart than this count as one
+constexpr std::size_t kMostCompared = 64;    // edges that are compared pair by pair
+constexpr double kSmallestCell = 1e-14;      // of the region's size
+constexpr double kRelativeRounding = 1e-15;  // of distances, as a part of the region's size
 
 //! The boundary's edges, those in one line joined.
 std::vector<Segment2> straightEdges(const PlanarBoundary& boundary) {
@@ -42,7 +42,7 @@ class Quartering {
     const Box2& extent = region_.boundary().extent();
     const double half = 0.5 * std::max(extent.upper.u - extent.lower.u, extent.upper.v - extent.lower.v);
     smallest_ = kSmallestCell * half;
-    rounding_ = kRounding * half;
+    rounding_ = kRelativeRounding * half;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       near_.push_back(static_cast<int>(i));
     }

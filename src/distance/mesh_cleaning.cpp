@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "coordinate_limit.h"
 #include "mesh_components.h"
 
 namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kLargestCoordinate = 1e6;  // m
-constexpr double kFlat = 1e-12;             // height of a triangle over its longest side: below it is a line
+constexpr double kFlat = 1e-12;  // height of a triangle over its longest side: below it is a line
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);

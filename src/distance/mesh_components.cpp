@@ -7,7 +7,8 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kFlat = 1e-12;  // volume over the cube of the extent: below it is a sheet folded back onto itself
+constexpr double kFlatVolume =
+    1e-12;  // volume over the cube of the extent: below it is a sheet folded back onto itself
 
 class Winding {
  public:
@@ -78,7 +79,7 @@ class Winding {
     }
     const int count = static_cast<int>(component->triangles.size());
     const double extent = component->box.extent();
-    component->closed = component->closed && std::fabs(component->volume) > kFlat * extent * extent * extent;
+    component->closed = component->closed && std::fabs(component->volume) > kFlatVolume * extent * extent * extent;
     if (component->closed && component->volume < 0.0) {
       for (int t : component->triangles) {
         std::swap(triangles_[t][1], triangles_[t][2]);

@@ -7,8 +7,8 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kSlack = 1e-9;  // m, of bounds that earlier results give: far more than rounding
-constexpr double kLevel = 1e-9;  // m, differences of distance below it count as none
+constexpr double kSlack = 1e-9;         // m, of bounds that earlier results give: far more than rounding
+constexpr double kSameDistance = 1e-9;  // m, differences of distance below it count as none
 
 }  // namespace
 
@@ -392,8 +392,8 @@ MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   int count = 0, alone = -1;
   for (int k = 0; k < object_->cornerCount(); ++k) {
     const Vector3& corner = object_->point(place.vertices[k]);
-    if (surface_.distanceToPlane(place.triangle, corner) <= std::fabs(place.distance) + kLevel &&
-        cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kLevel) {
+    if (surface_.distanceToPlane(place.triangle, corner) <= std::fabs(place.distance) + kSameDistance &&
+        cornerSample(place.vertices[k], place.triangle).distance <= place.distance + kSameDistance) {
       mean[k] += 1.0;
       alone = ++count == 1 ? k : -1;
     }
@@ -413,7 +413,7 @@ MeshPlace MeshSearch::middleOfLevel(const MeshPlace& place) {
   }
   const Vector3 point = weighted<3>(object_->corners<3>(place.element), mean);
   const SurfacePoint there = surface_.nearest(point, place.triangle);
-  return there.distance <= place.distance + kLevel ? placeAt(place.element, mean, there) : place;
+  return there.distance <= place.distance + kSameDistance ? placeAt(place.element, mean, there) : place;
 }
 
 }  // namespace distance

@@ -6,8 +6,8 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kSlack = 1e-9;   // of a squared distance, far more than rounding
-constexpr double kTiny = 1e-200;  // m^2
+constexpr double kSquaredSlack = 1e-9;  // of a squared distance, far more than rounding
+constexpr double kTiny = 1e-200;        // m^2
 
 }  // namespace
 
@@ -71,7 +71,7 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough)
   SurfacePoint found;
   double least = INFINITY;
   if (hint >= 0) {  // a bound only, so that what is found does not depend on it
-    least = nearestOnTriangle(point, corners(hint)).squared * (1.0 + kSlack) + kTiny;
+    least = nearestOnTriangle(point, corners(hint)).squared * (1.0 + kSquaredSlack) + kTiny;
   }
   const auto improve = [&](int triangle) {
     const NearestOnTriangle here = nearestOnTriangle(point, corners(triangle));

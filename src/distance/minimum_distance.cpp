@@ -8,12 +8,13 @@
 #include <tuple>
 #include <utility>
 
+#include "coordinate_limit.h"
+
 namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kRounding = 1e-12;         // m
-constexpr double kLargestCoordinate = 1e6;  // m; beyond it distances lose the precision that safety needs
+constexpr double kRounding = 1e-12;  // m
 
 void requireLength(const char* name, double value) {
   if (!std::isfinite(value) || value < 0.0) {

@@ -2,13 +2,14 @@
 
 #include <sstream>
 
+#include "coordinate_limit.h"
+
 namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kLargestCoordinate = 1e6;  // m
-constexpr double kSmallestExtent = 1e-6;    // m
-constexpr double kFlatness = 1e-12;         // twice the area of a triangle over its extent squared: below it is a line
+constexpr double kSmallestExtent = 1e-6;  // m
+constexpr double kFlatness = 1e-12;       // twice the area of a triangle over its extent squared: below it is a line
 
 bool isUsable(double coordinate) { return std::fabs(coordinate) <= kLargestCoordinate; }
 

@@ -64,7 +64,7 @@ SegmentNearest PlanarRegion::deepest(const Segment2& segment, const std::vector<
     const double tolerance = level == nullptr ? 0.0 : kLevel;
     const double limit = std::min(bound, best.distance + tolerance);
     Stretch stretch;
-    const DeepPoint point = depth_.deepest(segment, part, -limit, tolerance, level == nullptr ? nullptr : &stretch);
+    const DeepPoint2 point = depth_.deepest(segment, part, -limit, tolerance, level == nullptr ? nullptr : &stretch);
     if (level != nullptr && point.depth >= 0.0) {
       if (-point.depth < best.distance - kLevel) {
         *level = stretch;

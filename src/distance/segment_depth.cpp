@@ -5,7 +5,7 @@ namespace distance {
 namespace {
 
 constexpr double kCornerTolerance = 1e-9;  // m, so that no crossing slips through between two edges
-constexpr double kRounding = 1e-13;        // m
+constexpr double kDepthRounding = 1e-13;   // m
 
 //! The parameter between two at which a segment is equally far from two edges, as near to one as to the other.
 //! @param first where edge a is nearer than edge b
@@ -72,22 +72,22 @@ const std::vector<InsidePart>& SegmentDepth::partsInside(const Segment2& segment
   return parts_;
 }
 
-DeepPoint SegmentDepth::pointAt(const Segment2& segment, double parameter, int guess) const {
+DeepPoint2 SegmentDepth::pointAt(const Segment2& segment, double parameter, int guess) const {
   const NearestEdge nearest = tree_.nearest(segment.at(parameter), guess);
   return {parameter, std::sqrt(nearest.squared), nearest.edge};
 }
 
-DeepPoint SegmentDepth::deepest(const Segment2& segment, const InsidePart& part, double floor, double level,
-                                Stretch* stretch) {
-  const DeepPoint first = pointAt(segment, part.first, 0);
-  const DeepPoint last = pointAt(segment, part.last, first.edge);
+DeepPoint2 SegmentDepth::deepest(const Segment2& segment, const InsidePart& part, double floor, double level,
+                                 Stretch* stretch) {
+  const DeepPoint2 first = pointAt(segment, part.first, 0);
+  const DeepPoint2 last = pointAt(segment, part.last, first.edge);
   evaluated_.assign({first, last});
   pieces_.assign(1, {first, last});
-  DeepPoint best = {0.0, -INFINITY, -1};
+  DeepPoint2 best = {0.0, -INFINITY, -1};
   std::size_t compared = 0;
   for (;;) {
     for (; compared < evaluated_.size(); ++compared) {
-      const DeepPoint& point = evaluated_[compared];
+      const DeepPoint2& point = evaluated_[compared];
       if (point.depth > best.depth || (point.depth == best.depth && point.parameter < best.parameter)) {
         best = point;
       }
@@ -111,12 +111,12 @@ DeepPoint SegmentDepth::deepest(const Segment2& segment, const InsidePart& part,
 }
 
 void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double floor) {
-  const DeepPoint &first = piece.first, &last = piece.last;
+  const DeepPoint2 &first = piece.first, &last = piece.last;
   const Segment2 &a = boundary_.edge(first.edge), &b = boundary_.edge(last.edge);
   const double a_at_last = a.distance(segment.at(last.parameter));
   const double b_at_first = b.distance(segment.at(first.parameter));
   const double ceiling = std::min(std::max(first.depth, a_at_last), std::max(last.depth, b_at_first));
-  const bool one_edge_bounds = b_at_first - first.depth <= kRounding || a_at_last - last.depth <= kRounding;
+  const bool one_edge_bounds = b_at_first - first.depth <= kDepthRounding || a_at_last - last.depth <= kDepthRounding;
   if (one_edge_bounds || ceiling < floor) {
     return;
   }
@@ -128,9 +128,9 @@ void SegmentDepth::divide(const Segment2& segment, const Piece& piece, double fl
   if (std::max({first.depth, distance, last.depth}) < floor) {
     return;
   }
-  const DeepPoint middle = pointAt(segment, parameter, first.edge);
+  const DeepPoint2 middle = pointAt(segment, parameter, first.edge);
   evaluated_.push_back(middle);
-  if (middle.depth < distance - kRounding) {
+  if (middle.depth < distance - kDepthRounding) {
     pieces_.push_back({middle, last});
     pieces_.push_back({first, middle});
   }

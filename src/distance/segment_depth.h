@@ -13,7 +13,7 @@ struct InsidePart {
 };
 
 //! A segment's point inside the boundary.
-struct DeepPoint {
+struct DeepPoint2 {
   double parameter;
   double depth;  //!< [m] distance to the boundary
   int edge;      //!< the nearest
@@ -36,15 +36,15 @@ class SegmentDepth {
   //! The deepest point of a part, exactly, if its depth is at least `floor` [m]; depth -infinity otherwise.
   //! @param level points that are less deep by at most this [m] ...
   //! @param stretch ... are added here, or null
-  DeepPoint deepest(const Segment2& segment, const InsidePart& part, double floor, double level = 0.0,
-                    Stretch* stretch = nullptr);
+  DeepPoint2 deepest(const Segment2& segment, const InsidePart& part, double floor, double level = 0.0,
+                     Stretch* stretch = nullptr);
 
  private:
   struct Piece {
-    DeepPoint first, last;
+    DeepPoint2 first, last;
   };
 
-  DeepPoint pointAt(const Segment2& segment, double parameter, int guess) const;
+  DeepPoint2 pointAt(const Segment2& segment, double parameter, int guess) const;
   void divide(const Segment2& segment, const Piece& piece, double floor);
 
   const PlanarBoundary& boundary_;
@@ -52,7 +52,7 @@ class SegmentDepth {
   std::vector<double> cuts_;
   std::vector<InsidePart> parts_;
   std::vector<Piece> pieces_;
-  std::vector<DeepPoint> evaluated_;
+  std::vector<DeepPoint2> evaluated_;
 };
 
 }  // namespace distance

@@ -31,6 +31,10 @@ def run_command(name: str, arguments: Sequence[str]) -> int:
         except BrokenPipeError:
             _discard_output()
             return CLOSED
+        except ModuleNotFoundError as error:
+            if (error.name or "deformable_manipulation").startswith("deformable_manipulation"):
+                raise  # a bug
+            return fail(name, f"the Python module '{error.name}' is needed and not installed")
         except OSError as error:
             _discard_output()
             if error.filename is not None:  # a file of the package, or a bug

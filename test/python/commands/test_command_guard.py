@@ -1,5 +1,6 @@
 """Commands whose output cannot be written, or which are interrupted, end in one line."""
 
+import importlib
 import signal
 import subprocess
 import sys
@@ -50,6 +51,15 @@ def test_a_file_that_is_missing_is_named(monkeypatch, capfd):
     monkeypatch.setattr("deformable_manipulation.commands.guard._discard_output", lambda: None)
     assert run_command("a_command", []) == 1
     assert capfd.readouterr().err == "a_command: /nowhere/a_file: No such file or directory\n"
+
+
+def test_a_library_that_is_not_installed_is_named(monkeypatch, capfd):
+    command = types.ModuleType("a_command")
+    command.main = lambda arguments: importlib.import_module("no_such_library")
+    monkeypatch.setitem(sys.modules, "deformable_manipulation.commands.a_command", command)
+    assert run_command("a_command", []) == 1
+    message = "a_command: the Python module 'no_such_library' is needed and not installed\n"
+    assert capfd.readouterr().err == message
 
 
 def test_the_exit_status_of_wrong_usage(capsys):
