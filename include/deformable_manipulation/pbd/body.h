@@ -160,7 +160,8 @@ class Body {
 
   //! The same, and then pushes the object off shapes in which it only stands in balance. Where it comes back when it is
   //! pushed a little, its state is that of settle().
-  //! @throw ParameterError, NonFiniteState as settle()
+  //! @throw ParameterError as settle()
+  //! @throw NonFiniteState
   Rest settleStably(const SettleOptions& options);
 
   // Reading ------------------------------------------------------------------------------------

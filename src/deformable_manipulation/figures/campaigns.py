@@ -17,6 +17,8 @@ _CAMPAIGNS: Tuple[Tuple[str, str, int], ...] = (
     ("fabric_three_assistants", "", 100),
     ("fabric_three_assistants", _PAPER, 25),
 )
+_MOVING = "rope_moving_obstacle"
+_STIFF = "stiff_rod_one_assistant"
 # Options, what they do.
 _TERMS: Tuple[Tuple[str, str], ...] = (
     ("", ""),
@@ -64,6 +66,23 @@ def measure_campaigns(say: Say) -> Dict[str, str]:
         options = ["--runs", str(runs), "--seed", "1", "--duration", "60", *_set(value)]
         found[name, value] = run_campaign(name, options, say)
     return {"campaigns": _campaigns(found), "campaigns_summary": _summary(found)}
+
+
+def measure_stiff_rods(say: Say) -> Dict[str, str]:
+    """Return the table ``campaigns_stiff_rod``."""
+    options = ["--runs", "200", "--seed", "1", "--duration", "60"]
+    found = {(_STIFF, ""): run_campaign(_STIFF, options, say)}
+    return {"campaigns_stiff_rod": _campaigns(found)}
+
+
+def measure_moving_obstacles(say: Say) -> Dict[str, str]:
+    """Return the table ``campaigns_moving_obstacle``."""
+    values = ("", "controller.disturbance_filter=0")
+    options = ["--runs", "200", "--seed", "1", "--duration", "40"]
+    found = {
+        (_MOVING, value): run_campaign(_MOVING, [*options, *_set(value)], say) for value in values
+    }
+    return {"campaigns_moving_obstacle": _campaigns(found)}
 
 
 def measure_terms(say: Say) -> Dict[str, str]:

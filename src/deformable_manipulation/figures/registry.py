@@ -79,6 +79,18 @@ SUBJECT_LIST: Sequence[Subject] = (
         campaigns.measure_campaigns,
     ),
     Subject(
+        {"campaigns_stiff_rod": SAFETY},
+        "run_campaign stiff_rod_one_assistant --runs 200 --seed 1 --duration 60",
+        CAMPAIGNS,
+        campaigns.measure_stiff_rods,
+    ),
+    Subject(
+        {"campaigns_moving_obstacle": SAFETY},
+        "run_campaign rope_moving_obstacle --runs 200 --seed 1 --duration 40 [--set VALUE]",
+        CAMPAIGNS,
+        campaigns.measure_moving_obstacles,
+    ),
+    Subject(
         {"terms": SAFETY},
         "run_campaign rope_one_assistant --runs 100 --seed 7 --duration 60 [OPTIONS]",
         CAMPAIGNS,

@@ -26,12 +26,13 @@ def run_scenario(name: str, options: Sequence[str], say: Say) -> Dict:
 
 
 def run_campaign(name: str, options: Sequence[str], say: Say) -> Dict:
-    """Run a campaign; returns its ``campaign.json``.
+    """Run a campaign; returns the ``summary`` of its ``campaign.json``.
 
     Raises:
         MeasurementError: it failed. Missed limits are no failure.
     """
-    return _run(["run_campaign", name, *options], (0, UNACCEPTABLE), "campaign.json", say)
+    ran = _run(["run_campaign", name, *options], (0, UNACCEPTABLE), "campaign.json", say)
+    return ran["summary"]
 
 
 def _run(arguments: Sequence[str], accepted: Sequence[int], result: str, say: Say) -> Dict:
