@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::int64_t NOT_FOLLOWED = -1;
 
-double modelledRate(const Features& features, int feature, const std::vector<Vector3>& velocities) {
-  double rate = -features.normal[feature].dot(features.obstacle_velocity[feature]);
+double modelledRate(const Features& features, int feature, const std::vector<Vector3>& velocities,
+                    bool obstacle_velocity) {
+  double rate = obstacle_velocity ? -features.normal[feature].dot(features.obstacle_velocity[feature]) : 0.0;
   for (int agent = 0; agent < features.agents(); ++agent) {
     rate += features.gradient(feature, agent).dot(velocities[agent]);
   }
@@ -24,7 +25,8 @@ void DisturbanceObserver::setTimeConstant(double time_constant) { time_constant_
 
 void DisturbanceObserver::reset() { last_.clear(); }
 
-void DisturbanceObserver::update(double time, const std::vector<Vector3>& velocities, Features& features) {
+void DisturbanceObserver::update(double time, const std::vector<Vector3>& velocities, bool obstacle_velocity,
+                                 Features& features) {
   if (time_constant_ == 0.0) {
     return;
   }
@@ -35,7 +37,7 @@ void DisturbanceObserver::update(double time, const std::vector<Vector3>& veloci
     const Followed* before = elapsed > 0.0 ? find(features.identity[m]) : nullptr;
     if (before != nullptr) {
       const double observed = (features.distance[m] - before->distance) / elapsed;
-      const double surprise = observed - modelledRate(features, m, velocities);
+      const double surprise = observed - modelledRate(features, m, velocities, obstacle_velocity);
       features.disturbance[m] = before->rate + taken * (surprise - before->rate);
     }
     if (features.identity[m] != NOT_FOLLOWED) {

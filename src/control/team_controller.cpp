@@ -229,7 +229,7 @@ void TeamController::describe(const ObservationView& observation) {
 
 void TeamController::decide(const ObservationView& observation) {
   const bool usable = findGradients(observation);
-  disturbances_.update(observation.time, moved_, features_);
+  disturbances_.update(observation.time, moved_, parameters_.team.formulation.obstacle_velocity, features_);
   if (parameters_.safety && features_.size() > 0 && !usable) {
     return;
   }
@@ -297,7 +297,7 @@ void TeamController::setBounds() {
   const MotionLimits limits = motionLimits();
   for (int i = 0; i < size(); ++i) {
     const Member& member = members_[i];
-    const Vector3 slower = slowed(member);
+    const Vector3& slower = decisions_[i].command;  // so far
     for (int axis = 0; axis < 3; ++axis) {
       const VelocityRange range = member.enabled ? limits.next(member.command[axis], member.acceleration[axis])
                                                  : VelocityRange{slower[axis], slower[axis]};

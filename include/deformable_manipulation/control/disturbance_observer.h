@@ -28,7 +28,8 @@ class DisturbanceObserver {
   //! Takes the features of a state, and gives each its rate (Features::disturbance).
   //! @param time [s] of the state, later than the last
   //! @param velocities [A] m/s, of the held points from the last state to this one
-  void update(double time, const std::vector<Vector3>& velocities, Features& features);
+  //! @param obstacle_velocity whether the rows know the obstacles' velocities; else w counts as part of the disturbance
+  void update(double time, const std::vector<Vector3>& velocities, bool obstacle_velocity, Features& features);
 
  private:
   struct Followed {

@@ -9,6 +9,7 @@ from deformable_manipulation._control import (
     PiecewiseLinearClassK,
     PredictedState,
 )
+from deformable_manipulation.scenario.spec import CollisionSpec
 
 SLOPES, OFFSET = (1.0, 5.0), 0.05
 NORMAL = np.array([2.0, -1.0, 2.0]) / 3.0
@@ -199,9 +200,11 @@ def test_rows_come_and_go_without_a_step():
     assert (steps < 0.0).all() and np.abs(steps).max() < 0.01
 
 
-def approached(disturbance_filter, told, cycles=100):
+def approached(disturbance_filter, told, cycles=100, **collision):
     """The velocity of an assistant under whose rope a ground rises at 0.02 m/s."""
-    scenario = build.scenario(disturbance_filter=disturbance_filter)
+    scenario = build.scenario(
+        disturbance_filter=disturbance_filter, collision=CollisionSpec(offset=OFFSET, **collision)
+    )
     controller = build.Alone(scenario)
     positions = np.array([agent.start for agent in scenario.agents])
     body = build.hanging_chain(2, 0.5)
@@ -226,3 +229,8 @@ def test_an_obstacle_whose_velocity_nobody_tells_is_a_disturbance():
 
 def test_nothing_is_observed_of_what_is_told():
     assert approached(0.1, True) == pytest.approx(approached(0.0, True), abs=1e-9)
+
+
+def test_a_velocity_that_the_rows_leave_out_is_a_disturbance():
+    left_out = approached(0.1, True, obstacle_velocity=False)
+    assert left_out == pytest.approx(approached(0.1, False), abs=1e-9) and left_out[2] > 0.0
