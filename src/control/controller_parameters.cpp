@@ -31,9 +31,15 @@ Priority readPriority(const ParameterSection& controller, const std::vector<std:
 
 }  // namespace
 
+HorizonParameters HorizonParameters::read(const ParameterSection& horizon) {
+  return {horizon.number("length"), horizon.integer("nodes"), horizon.number("leader_fade"),
+          horizon.vector<3>("weights"), 0.0};
+}
+
 ControllerParameters ControllerParameters::read(const ParameterSection& controller, const ParameterSection& team) {
   ControllerParameters p;
   p.references = team.vectors("references");
+  p.places = team.vectors("places");
   p.cycle_time = team.number("cycle_time");
   p.safety = team.flag("safety");
   p.gain = controller.number("gain");
@@ -45,6 +51,7 @@ ControllerParameters ControllerParameters::read(const ParameterSection& controll
   p.disturbance_filter = controller.number("disturbance_filter");
   p.timeout = controller.number("timeout");
   p.exact_gradients = controller.choice<bool>("jacobian", {{"equilibrium", true}, {"perturbed_copies", false}});
+  p.horizon = HorizonParameters::read(controller.section("horizon"));
   p.team = readTeam(controller, team);
   p.barriers = team.texts("barriers");
   p.priority = readPriority(controller, p.barriers);

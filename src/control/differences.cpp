@@ -86,7 +86,7 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
 }
 
 void Differences::takeGradients(const distance::Distances& distances, Features& features) const {
-  features.take(distances, static_cast<int>(agents_.size()), false);
+  features.take({distances}, static_cast<int>(agents_.size()));
   for (int m = 0; m < features.size(); ++m) {
     const distance::Feature& feature = distances.features[m];
     for (int agent = 0; agent < features.agents(); ++agent) {
@@ -100,7 +100,7 @@ void Differences::takeGradients(const distance::Distances& distances, Features& 
 }
 
 void Differences::takeMinimum(const distance::Distances& distances, Features& features) const {
-  features.take(distances, static_cast<int>(agents_.size()), true);
+  features.take({distances, 0, true}, static_cast<int>(agents_.size()));
   for (int agent = 0; agent < features.agents() && features.size() > 0; ++agent) {
     if (agent != leader_) {
       features.gradient(0, agent) = agents_[agent].rates.rightCols<1>();

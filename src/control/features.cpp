@@ -5,18 +5,30 @@
 namespace deformable_manipulation {
 namespace control {
 
-void Features::take(const distance::Distances& distances, int agents, bool nearest_only) {
-  const int count = std::min(distances.offsets[1], nearest_only ? 1 : distances.offsets[1]);
-  agents_ = agents;
+int ChosenFeatures::count() const {
+  const int all = distances.offsets[copy + 1] - distances.offsets[copy];
+  return nearest_only ? std::min(all, 1) : all;
+}
+
+void Features::clear() {
   distance.clear();
   normal.clear();
   obstacle_velocity.clear();
   identity.clear();
+  disturbance.clear();
+  gradients_.clear();
+}
+
+void Features::take(const ChosenFeatures& chosen, int agents) {
+  const int count = chosen.count();
+  clear();
+  agents_ = agents;
   for (int m = 0; m < count; ++m) {
-    distance.push_back(distances.features[m].distance);
-    normal.push_back(distances.features[m].normal);
-    obstacle_velocity.push_back(distances.features[m].obstacle_velocity);
-    identity.push_back(distances.features[m].identity);
+    const distance::Feature& feature = chosen.first()[m];
+    distance.push_back(feature.distance);
+    normal.push_back(feature.normal);
+    obstacle_velocity.push_back(feature.obstacle_velocity);
+    identity.push_back(feature.identity);
   }
   disturbance.assign(count, 0.0);
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());

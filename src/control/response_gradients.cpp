@@ -3,17 +3,16 @@
 namespace deformable_manipulation {
 namespace control {
 
-void takeResponseGradients(const ObservationView& observation, int leader, bool nearest_only, Features& features) {
-  using Response = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-  const distance::Distances& distances = *observation.distances;
-  features.take(distances, observation.agents, nearest_only);
+void takeResponseGradients(const ChosenFeatures& chosen, const Response& response, int leader, Features& features) {
+  using Derivative = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  features.take(chosen, response.agents);
+  const distance::Feature* first = chosen.first();
   for (int m = 0; m < features.size(); ++m) {
-    for (int agent = 0; agent < observation.agents; ++agent) {
-      const distance::Feature& feature = distances.features[m];
+    for (int agent = 0; agent < response.agents; ++agent) {
       for (int k = 0; k < 3 && agent != leader; ++k) {
-        const long point = static_cast<long>(agent) * observation.points + feature.vertices[k];
-        const Response response(observation.sensitivities + 9 * point);
-        features.gradient(m, agent) += feature.weights[k] * (response.transpose() * features.normal[m]);
+        const long point = static_cast<long>(agent) * response.points + first[m].vertices[k];
+        const Derivative derivative(response.derivatives + 9 * point);
+        features.gradient(m, agent) += first[m].weights[k] * (derivative.transpose() * features.normal[m]);
       }
     }
   }

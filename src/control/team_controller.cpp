@@ -25,33 +25,19 @@ Status statusOf(const Filtered& result, const Decision& decision) {
   return departure > VELOCITY_TOLERANCE ? Status::CONSTRAINED : Status::NOMINAL;
 }
 
-std::vector<std::unique_ptr<Barrier>> makeBarriers(const ControllerParameters& p) {
-  pbd::ParameterCheck check;
-  const ParameterSection controller(p.values, "controller", check);
-  std::vector<std::unique_ptr<Barrier>> barriers;
-  for (const std::string& name : p.barriers) {
-    const auto maker = barrierMakers().find(name);
-    if (maker == barrierMakers().end()) {
-      throw std::invalid_argument("controller." + name + ": there is no barrier of this name");
-    }
-    barriers.push_back(maker->second(controller.section(name), p.team));
-  }
-  check.throwIfAny();
-  return barriers;
-}
-
 }  // namespace
 
 TeamController::TeamController(const ControllerParameters& p)
     : parameters_(p),
-      barriers_(makeBarriers(p)),
+      barriers_(makeBarriers(p.barriers, p.values, p.team)),
       velocities_(1e-4, p.timeout),
       differences_(p.team.agents, p.team.leader),
       disturbances_(p.disturbance_filter),
       filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
   present_.positions.resize(p.team.agents);
   for (const int agent : p.team.commanded) {
-    members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
+    members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(),
+                        true});
   }
   setSmoothing();
   decisions_.resize(members_.size());
@@ -59,6 +45,16 @@ TeamController::TeamController(const ControllerParameters& p)
     vector->setZero(3 * size());
   }
   reset();
+}
+
+void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
+  horizon_ = std::make_unique<Horizon>(parameters_, std::move(forecast));
+}
+
+void TeamController::announce(std::vector<Vector3> displacements) {
+  if (horizon_ != nullptr) {
+    horizon_->announce(std::move(displacements));
+  }
 }
 
 void TeamController::setSmoothing() {
@@ -74,10 +70,13 @@ void TeamController::setParameters(const ControllerParameters& given) {
   }
   ControllerParameters p = given;
   p.team.formulation = team.formulation;
-  std::vector<std::unique_ptr<Barrier>> barriers = makeBarriers(p);
+  std::vector<std::unique_ptr<Barrier>> barriers = makeBarriers(p.barriers, p.values, p.team);
   filter_.setWeights(p.weights.replicate(p.team.commanded.size(), 1));
   parameters_ = std::move(p);
   barriers_ = std::move(barriers);
+  if (horizon_ != nullptr) {
+    horizon_->setParameters(parameters_);
+  }
   disturbances_.setTimeConstant(parameters_.disturbance_filter);
   setSmoothing();
 }
@@ -94,6 +93,7 @@ void TeamController::reset() {
   for (int i = 0; i < size(); ++i) {
     members_[i].reference = parameters_.references[i];
   }
+  places_ = parameters_.places;
   forget();
 }
 
@@ -101,6 +101,9 @@ void TeamController::forget() {
   velocities_.reset();
   differences_.reset();
   disturbances_.reset();
+  if (horizon_ != nullptr) {
+    horizon_->reset();
+  }
   stop();
   answered_ = false;
 }
@@ -108,6 +111,7 @@ void TeamController::forget() {
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
+  places_[taking.agent] = taking.reference;
   taking.departure.setZero();  // it was from another nominal velocity
 }
 
@@ -235,6 +239,7 @@ void TeamController::decide(const ObservationView& observation) {
   }
   describeGradients();
   setBounds();
+  lookAhead(observation);
   if (parameters_.safety) {
     passFiltered();
   } else {
@@ -246,7 +251,9 @@ void TeamController::decide(const ObservationView& observation) {
 bool TeamController::findGradients(const ObservationView& observation) {
   const bool nearest_only = !parameters_.team.formulation.every_feature;
   if (parameters_.exact_gradients && observation.sensitivities != nullptr) {
-    takeResponseGradients(observation, parameters_.team.leader, nearest_only, features_);
+    takeResponseGradients({*observation.distances, 0, nearest_only},
+                          {observation.sensitivities, observation.agents, observation.points},
+                          parameters_.team.leader, features_);
     for (Decision& decision : decisions_) {
       decision.exact_jacobian = true;
     }
@@ -307,6 +314,21 @@ void TeamController::setBounds() {
   }
 }
 
+//! Goals of the members: the nominal velocities, moved by what has to be done now for the sake of later.
+void TeamController::lookAhead(const ObservationView& observation) {
+  const bool looks = parameters_.safety && horizon_ != nullptr;
+  if (looks) {
+    horizon_->plan(observation, predicted_, places_);
+  }
+  const double most = parameters_.max_velocity;
+  for (int i = 0; i < size(); ++i) {
+    const Vector3& nominal = decisions_[i].nominal;
+    members_[i].goal = !looks ? nominal
+                              : Vector3(nominal.cwiseMax(-most).cwiseMin(most) +
+                                        horizon_->departure(members_[i].agent));
+  }
+}
+
 void TeamController::passUnfiltered() {
   for (int i = 0; i < size(); ++i) {
     const Vector3 command = decisions_[i].nominal.cwiseMax(lower_.segment<3>(3 * i)).cwiseMin(upper_.segment<3>(3 * i));
@@ -327,7 +349,7 @@ void TeamController::passFiltered() {
     barriers_[k]->addRows(features_, predicted_, rows);
   }
   for (int i = 0; i < size(); ++i) {
-    const Vector3 nominal = decisions_[i].nominal + kept_ * members_[i].departure;
+    const Vector3 nominal = members_[i].goal + kept_ * members_[i].departure;
     nominal_.segment<3>(3 * i) = members_[i].enabled ? nominal : decisions_[i].command;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -351,7 +373,7 @@ void TeamController::keepDeparture(bool rows_act, const Decision& decision, Memb
   if (decision.status == Status::FAILED) {
     member.departure.setZero();
   } else if (rows_act) {
-    member.departure = decision.command - decision.nominal;
+    member.departure = decision.command - member.goal;
   } else {
     member.departure *= kept_;
   }

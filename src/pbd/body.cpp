@@ -103,6 +103,8 @@ const HeldPoint& Body::held(int particle) const {
 
 std::string Body::softness(double, int) const { return ""; }
 
+std::unique_ptr<RestShapes> Body::restShapes(const std::vector<HeldPoint>& /*agents*/) const { return nullptr; }
+
 ResponseStatus Body::response(double*) { return ResponseStatus::NOT_AVAILABLE; }
 
 int Body::addCopy(int particle, const Vector3& displacement) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "deformable_manipulation/pbd/rod_equilibrium.h"
+#include "deformable_manipulation/pbd/rod_rest_shapes.h"
 #include "lane_groups.h"
 #include "reference_motion.h"
 #include "rod_kernel.h"
@@ -184,6 +185,21 @@ void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
   }
 }
 
+void Rod::setShape(const double* points) {
+  std::vector<Pose> segments(parameters_.segments);
+  Quaternion frame = pose(0).orientation;
+  for (int i = 0; i < parameters_.segments; ++i) {
+    const Eigen::Map<const Vector3> from(points + 3 * i);
+    const Eigen::Map<const Vector3> to(points + 3 * (i + 1));
+    frame = Quaternion::FromTwoVectors(tangent(frame), to - from) * frame;
+    frame.normalize();
+    segments[i] = {0.5 * (from + to), frame};
+  }
+  placeCopy(0, segments);
+  state_->groups.fill(&RodLanes::multiplier, 0.0);
+  stop();
+}
+
 void Rod::stop() {
   state_->groups.fill(&RodLanes::velocity, 0.0);
   state_->groups.fill(&RodLanes::angular_velocity, 0.0);
@@ -325,6 +341,10 @@ ResponseStatus Rod::response(double* to) {
     equilibrium.response(0, to);
   }
   return equilibrium.status(0);
+}
+
+std::unique_ptr<RestShapes> Rod::restShapes(const std::vector<HeldPoint>& agents) const {
+  return std::make_unique<RodRestShapes>(*this, agents);
 }
 
 void Rod::points(double* to) const {

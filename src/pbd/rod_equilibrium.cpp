@@ -58,13 +58,16 @@ struct RodEquilibrium::State {
   std::vector<Vector3> first_position;  // of each copy's first held segment
   std::vector<double> shape;            // points of a copy as found
   std::vector<double> present;          // points of all copies as simulated
+  std::vector<Vector3> held_positions;  // [copies x holds] m
+  bool elsewhere = false;               // whether they are other holds than the simulated ones
   int iterations = 0;
 
   void configure(const Rod& rod);
   void describeMaterial();
   void describeHolds();
   void connect();
-  void hold(const Rod& rod, int slot, int copy);
+  void update(const Rod& rod, int copies, const EquilibriumOptions& options);
+  void hold(int slot, int copy);
   void startFrom(const Rod& rod, int slot, int copy);
   bool solve(const Rod& rod, int first, int last, const EquilibriumOptions& options);
   void search(RodEquilibriumLanes& lanes, int copies, const EquilibriumOptions& options);
@@ -130,27 +133,44 @@ void RodEquilibrium::requireValid(int copy) const {
 
 void RodEquilibrium::update(const Rod& rod, int copies, const EquilibriumOptions& options) {
   State& s = *state_;
-  s.configure(rod);
-  s.iterations = 0;
-  s.status.resize(copies, ResponseStatus::NOT_CONVERGED);
-  s.first_position.resize(copies);
-  if (s.held.empty()) {
-    std::fill(s.status.begin(), s.status.end(), ResponseStatus::NOT_HELD);
+  s.elsewhere = false;
+  s.held_positions.clear();
+  for (int copy = 0; copy < copies; ++copy) {
+    for (const HeldPoint& held : rod.holds()) {
+      s.held_positions.push_back(rod.heldPosition(held, copy));
+    }
+  }
+  s.update(rod, copies, options);
+}
+
+void RodEquilibrium::updateElsewhere(const Rod& rod, const std::vector<Vector3>& held,
+                                     const EquilibriumOptions& options) {
+  State& s = *state_;
+  s.elsewhere = true;
+  s.held_positions = held;
+  s.update(rod, static_cast<int>(held.size() / std::max<std::size_t>(1, rod.holds().size())), options);
+}
+
+void RodEquilibrium::State::update(const Rod& rod, int copies, const EquilibriumOptions& options) {
+  configure(rod);
+  iterations = 0;
+  status.resize(copies, ResponseStatus::NOT_CONVERGED);
+  first_position.resize(copies);
+  if (held.empty()) {
+    std::fill(status.begin(), status.end(), ResponseStatus::NOT_HELD);
     return;
   }
-  const int groups = (copies + kLanes - 1) / kLanes;
-  while (static_cast<int>(s.groups.size()) < groups) {
-    s.groups.emplace_back(s.parameters.segments, static_cast<int>(s.spans.size()), static_cast<int>(s.held.size()));
+  while (static_cast<int>(groups.size()) < (copies + kLanes - 1) / kLanes) {
+    groups.emplace_back(parameters.segments, static_cast<int>(spans.size()), static_cast<int>(held.size()));
   }
-  for (int group = 0; group < groups; ++group) {
-    const int first = group * kLanes;
+  for (int first = 0; first < copies; first += kLanes) {
     const int last = std::min(copies, first + kLanes) - 1;
     for (int slot = first; slot < first + kLanes; ++slot) {
-      s.hold(rod, slot, std::min(slot, last));  // idle lanes repeat a copy, so that none computes nonsense
+      hold(slot, std::min(slot, last));  // idle lanes repeat a copy, so that none computes nonsense
     }
-    selectedRodEquilibriumKernel().follow(s.input, s.groups[group], last - first + 1);
-    if (!s.solve(rod, first, last, options)) {
-      s.solve(rod, first, last, options);  // those that failed, from the simulated shape
+    selectedRodEquilibriumKernel().follow(input, groups[first / kLanes], last - first + 1);
+    if (!solve(rod, first, last, options)) {
+      solve(rod, first, last, options);  // those that failed, from the simulated shape
     }
   }
 }
@@ -165,8 +185,10 @@ bool RodEquilibrium::State::solve(const Rod& rod, int first, int last, const Equ
     }
   }
   search(groups[first / kLanes], last - first + 1, options);
-  present.resize(shape.size() * rod.copyCount());
-  rod.points(present.data());
+  if (!elsewhere) {
+    present.resize(shape.size() * rod.copyCount());
+    rod.points(present.data());
+  }
   bool all_valid = true;
   for (int copy = first; copy <= last; ++copy) {
     status[copy] = judge(copy, options);
@@ -229,17 +251,17 @@ void RodEquilibrium::State::connect() {
 }
 
 //! Takes over where the copy is held now.
-void RodEquilibrium::State::hold(const Rod& rod, int slot, int copy) {
+void RodEquilibrium::State::hold(int slot, int copy) {
+  const Vector3* positions = &held_positions[copy * holds.size()];
   if (slot == copy) {
-    first_position[copy] = rod.heldPosition(holds.front(), copy);
+    first_position[copy] = positions[0];
   }
   for (std::size_t i = 0; i < holds.size(); ++i) {
     if (clamped[holds[i].particle]) {
       setOrientation(holds[i].particle, slot, holds[i].pose.orientation.coeffs().data());
     }
     if (i > 0) {
-      const Vector3 reach = rod.heldPosition(holds[i], copy) - rod.heldPosition(holds[i - 1], copy);
-      setVector(&RodEquilibriumLanes::reach, static_cast<int>(i) - 1, slot, reach);
+      setVector(&RodEquilibriumLanes::reach, static_cast<int>(i) - 1, slot, positions[i] - positions[i - 1]);
     }
   }
 }
@@ -247,7 +269,7 @@ void RodEquilibrium::State::hold(const Rod& rod, int slot, int copy) {
 //! Begins the search at the simulated shape, with each span's weight shared by its ends.
 void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   std::vector<double> orientations(4 * parameters.segments);
-  rod.orientations(copy, orientations.data());
+  rod.orientations(elsewhere ? 0 : copy, orientations.data());
   for (int i = 0; i < parameters.segments; ++i) {
     setOrientation(i, slot, &orientations[4 * i]);
   }
@@ -284,6 +306,9 @@ ResponseStatus RodEquilibrium::State::judge(int copy, const EquilibriumOptions& 
   }
   if (lanes.unstable[copy % kLanes] != 0.0 || swingsFreely(copy)) {
     return ResponseStatus::UNSTABLE;
+  }
+  if (elsewhere) {
+    return ResponseStatus::VALID;
   }
   points(copy, shape.data());
   double farthest = 0.0;

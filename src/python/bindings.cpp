@@ -8,6 +8,7 @@ PYBIND11_MODULE(_pbd, module) {
   using namespace deformable_manipulation::pbd;
   module.doc() = "Position-based dynamics of deformable objects and their perturbed copies (C++ core).";
   bindErrors(module);
+  bindRestShapes(module);
   bindBody(module);
   bindRod(module);
   bindEquilibrium(module);

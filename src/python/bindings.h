@@ -54,6 +54,7 @@ inline std::pair<Vector3, Vector3> toPair(const Wrench& wrench) { return {wrench
 void bindErrors(py::module_& module);
 void bindBody(py::module_& module);
 void bindRod(py::module_& module);
+void bindRestShapes(py::module_& module);
 void bindEquilibrium(py::module_& module);
 void bindFabric(py::module_& module);
 void bindSimulation(py::module_& module);

@@ -65,6 +65,20 @@ void bindBody(py::module_& module) {
                    "C copies (copy 0 is the object itself), N particles, P geometry points. SI units, fixed frame,\n"
                    "quaternions x, y, z, w.")
       .def_property_readonly("kind", &Body::kind, "The word that says its kind in the scenario: 'rod' or 'fabric'.")
+      .def(
+          "rest_shapes",
+          [](const Body& body, const py::list& agents) -> std::shared_ptr<RestShapes> {
+            std::vector<HeldPoint> held;
+            for (const py::handle& item : agents) {
+              const auto [particle, type, position, orientation] =
+                  item.cast<std::tuple<int, std::string, Vector3, Vector4>>();
+              held.push_back({particle, toHold(type), {position, toQuaternion(orientation)}, {}});
+            }
+            return body.restShapes(held);
+          },
+          py::arg("agents"),
+          "How the object, which is held nowhere, rests between agents, a list of (particle, 'clamped' or 'pinned',\n"
+          "position (3,) [m], orientation (4,)); None for objects of a kind that cannot tell.")
       .def("clone", &Body::clone, "An independent body in the same state.")
       .def_property_readonly("particle_count", &Body::particleCount, "N, particles that can be held.")
       .def_property_readonly("point_count", &Body::pointCount, "P, geometry points per copy.")

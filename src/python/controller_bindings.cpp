@@ -6,6 +6,7 @@
 #include <string>
 
 #include "control_bindings.h"
+#include "distances_binding.h"
 #include "deformable_manipulation/control/team_controller.h"
 #include "observation_reader.h"
 #include "parameter_value_from_python.h"
@@ -15,6 +16,8 @@ namespace py = pybind11;
 using namespace deformable_manipulation::control;
 using deformable_manipulation::ParameterSection;
 using deformable_manipulation::ParameterValue;
+using deformable_manipulation::distance::MinimumDistance;
+using deformable_manipulation::pbd::RestShapes;
 
 namespace {
 
@@ -133,6 +136,29 @@ void bindController(py::module_& module) {
           },
           py::arg("controller"), py::arg("team"),
           "Of the same agents and barriers; formulation, priority and solver stay. Raises ValueError.")
+      .def(
+          "announce",
+          [](BoundController& bound, std::vector<Vector3> displacements) {
+            bound.controller.announce(std::move(displacements));
+          },
+          py::arg("displacements"))
+      .def(
+          "look_ahead",
+          [](BoundController& bound, std::shared_ptr<RestShapes> shapes,
+             const std::shared_ptr<NamedMinimumDistance>& distance, const py::object& triangles) {
+            if (shapes == nullptr || distance == nullptr) {
+              throw py::value_error("shapes and distance must not be None");
+            }
+            std::vector<std::array<int, 3>> faces;
+            if (!triangles.is_none()) {
+              faces = triangles.cast<std::vector<std::array<int, 3>>>();
+            }
+            std::shared_ptr<MinimumDistance> native(distance, &distance->native);
+            bound.controller.setForecast(
+                std::make_shared<ObjectForecast>(std::move(shapes), std::move(native), std::move(faces)));
+          },
+          py::arg("shapes"), py::arg("distance"), py::arg("triangles"),
+          "Looks ahead with _pbd.RestShapes and a _distance.MinimumDistance of its own.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
       .def("update", &update, py::arg("observation"),

@@ -21,12 +21,6 @@ void bindDistances(py::module_& module);
 
 namespace {
 
-//! The computation with the names of its obstacles.
-struct NamedMinimumDistance {
-  MinimumDistance native;
-  std::shared_ptr<const std::vector<std::string>> names;
-};
-
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (obstacles[i] == nullptr) {
@@ -60,15 +54,16 @@ PYBIND11_MODULE(_distance, module) {
   bindPlanarObstacle(module);
   bindMeshObstacle(module);
   bindDistances(module);
-  py::class_<NamedMinimumDistance>(
+  py::class_<NamedMinimumDistance, std::shared_ptr<NamedMinimumDistance>>(
       module, "MinimumDistance",
       "Signed minimum distances between all copies of an object and several obstacles, from surface to surface.\n\n"
       "Raises ValueError: margin or band [m] is negative or not finite.")
       .def(py::init([](std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band,
                        std::vector<std::string> names) {
              requireObstacles(obstacles);
-             return NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band),
-                                         std::make_shared<const std::vector<std::string>>(std::move(names))};
+             return std::make_shared<NamedMinimumDistance>(
+                 NamedMinimumDistance{MinimumDistance(std::move(obstacles), margin, band),
+                                      std::make_shared<const std::vector<std::string>>(std::move(names))});
            }),
            py::arg("obstacles"), py::arg("margin"), py::arg("band"), py::arg("names") = std::vector<std::string>())
       .def("compute", &compute, py::arg("points"), py::arg("triangles") = py::none(),

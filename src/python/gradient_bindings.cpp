@@ -48,7 +48,7 @@ Features makeFeatures(const py::array_t<double>& distance, const py::array_t<dou
     distances.features[m].obstacle_velocity = Eigen::Map<const Vector3>(v.data() + 3 * m);
   }
   Features features;
-  features.take(distances, static_cast<int>(g.shape(1)), false);
+  features.take({distances}, static_cast<int>(g.shape(1)));
   for (int m = 0; m < features.size(); ++m) {
     for (int agent = 0; agent < features.agents(); ++agent) {
       features.gradient(m, agent) = Eigen::Map<const Vector3>(g.data(m, agent, 0));
@@ -130,7 +130,9 @@ void bindGradients(py::module_& module) {
           throw py::value_error(fault.empty() ? "sensitivities of the state is None" : fault);
         }
         Features features;
-        takeResponseGradients(reader.view(), leader, nearest_only, features);
+        const ObservationView& view = reader.view();
+        takeResponseGradients({*view.distances, 0, nearest_only}, {view.sensitivities, view.agents, view.points},
+                              leader, features);
         return features;
       },
       py::arg("observation"), py::arg("agents"), py::arg("leader") = 0, py::arg("nearest_only") = false,

@@ -76,6 +76,11 @@ void bindRod(py::module_& module) {
            py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
+void bindRestShapes(py::module_& module) {
+  py::class_<RestShapes, std::shared_ptr<RestShapes>>(
+      module, "RestShapes", "Shapes in which an object would rest if its agents held it elsewhere than they do.");
+}
+
 void bindEquilibrium(py::module_& module) {
   py::class_<BoundEquilibrium>(
       module, "RodEquilibrium",

@@ -60,6 +60,11 @@ class Barrier {
 //! Makes a barrier from its section of the scenario.
 using BarrierMaker = std::function<std::unique_ptr<Barrier>(const ParameterSection& section, const Team& team)>;
 
+//! Barriers by their names, from the section `controller`.
+//! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for what is wrong in the section
+std::vector<std::unique_ptr<Barrier>> makeBarriers(const std::vector<std::string>& names,
+                                                   const ParameterValue& controller, const Team& team);
+
 //! How to make each barrier that there is, by its name.
 const std::map<std::string, BarrierMaker>& barrierMakers();
 

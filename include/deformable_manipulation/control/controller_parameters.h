@@ -12,10 +12,23 @@ namespace control {
 
 using pbd::Vector3;
 
+//! How far a controller looks ahead, see Horizon.
+struct HorizonParameters {
+  double length;        //!< [s] 0: not at all
+  int nodes;            //!< times N at which it looks
+  double leader_fade;   //!< [s] time constant with which the leader's velocity is expected to fade
+  Vector3 weights;      //!< cost of departing from the nominal velocity per axis
+  double max_velocity;  //!< [m/s] of every component
+
+  //! Reads the section `controller.horizon`.
+  static HorizonParameters read(const ParameterSection& horizon);
+};
+
 //! What a controller is made of. Ranges, defaults and meanings of the keys are declared in Python, see
 //! docs/parameters.md; here are only their values.
 struct ControllerParameters {
   std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
+  std::vector<Vector3> places;        //!< [A] m, the same of all agents
   double cycle_time;                  //!< [s]
   bool safety;                        //!< false: the nominal velocity within its limits
   double gain;                        //!< [1/s]
@@ -27,6 +40,7 @@ struct ControllerParameters {
   double disturbance_filter;          //!< [s] time constant of the disturbance observer; 0: none
   double timeout;                     //!< [s] a state older than the last by more means that time was set back
   bool exact_gradients;               //!< from the response, where it is known
+  HorizonParameters horizon;
   Team team;                          //!< who is commanded, and who else there is
   std::vector<std::string> barriers;  //!< names of the barriers in use, in their order
   Priority priority;                  //!< of the barriers, by their numbers in that order

@@ -8,6 +8,16 @@
 namespace deformable_manipulation {
 namespace control {
 
+//! Which of the computed features are taken.
+struct ChosenFeatures {
+  const distance::Distances& distances;
+  int copy = 0;               //!< of the object
+  bool nearest_only = false;  //!< the feature of the minimum alone
+
+  const distance::Feature* first() const { return distances.features.data() + distances.offsets[copy]; }
+  int count() const;
+};
+
 //! M nearest features of the object itself with their gradients.
 //!
 //! gradient(m, a) . v is the rate at which feature m's distance grows when agent a's held point moves with
@@ -15,9 +25,11 @@ namespace control {
 //! gradients of all agents sum to the normal: the leader's is the rest of the others'.
 class Features {
  public:
-  //! Starts afresh, with the first features of copy 0 and gradients of zero.
-  //! @param nearest_only the feature of the minimum alone
-  void take(const distance::Distances& distances, int agents, bool nearest_only);
+  //! Starts afresh, with gradients of zero.
+  void take(const ChosenFeatures& chosen, int agents);
+
+  //! No features.
+  void clear();
 
   //! Gives the leader the rest of the normals.
   void completeLeader(int leader);

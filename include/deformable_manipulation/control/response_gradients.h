@@ -5,16 +5,22 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Features of the object itself with the gradients of its quasi-static equilibrium.
+//! How an object's points follow its held points.
+struct Response {
+  const double* derivatives;  //!< [A x P x 3 x 3] d point / d held point
+  int agents;
+  int points;
+};
+
+//! Features of a copy with the gradients of its quasi-static equilibrium.
 //!
 //! The distance of a locally nearest pair changes with its material point's motion along the normal:
 //! g[m, a, j] = normal . dX_m / dp_aj, X_m = sum_k weights_k points_k.
 //!
-//! @param observation with sensitivities
+//! @param chosen the features
 //! @param leader index of the leader
-//! @param nearest_only the feature of the minimum alone, if there is one
 //! @param features what is filled
-void takeResponseGradients(const ObservationView& observation, int leader, bool nearest_only, Features& features);
+void takeResponseGradients(const ChosenFeatures& chosen, const Response& response, int leader, Features& features);
 
 }  // namespace control
 }  // namespace deformable_manipulation

@@ -9,6 +9,7 @@
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
 #include "deformable_manipulation/control/disturbance_observer.h"
+#include "deformable_manipulation/control/horizon.h"
 #include "deformable_manipulation/control/motion_limits.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
@@ -40,6 +41,12 @@ class TeamController {
 
   //! Another solver of the safety filter's program.
   void setSolver(QpSolver solver) { filter_.setSolver(std::move(solver)); }
+
+  //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
+  void setForecast(std::shared_ptr<ObjectForecast> forecast);
+
+  //! See Horizon::announce().
+  void announce(std::vector<Vector3> displacements);
 
   //! Number M of assistants that it commands; they are numbered in the order of the parameters.
   int size() const { return static_cast<int>(members_.size()); }
@@ -83,7 +90,8 @@ class TeamController {
     Vector3 reference;     // [m]
     Vector3 command;       // [m/s] the last one, which acts until the next does
     Vector3 acceleration;  // [m/s^2] from the command before to it
-    Vector3 departure;     // [m/s] of it from its nominal velocity, by the rows
+    Vector3 departure;     // [m/s] of it from its goal, by the rows
+    Vector3 goal;          // [m/s] the velocity that the filter is to come near to
     bool enabled;
   };
 
@@ -99,6 +107,7 @@ class TeamController {
   MotionLimits motionLimits() const;
   Vector3 slowed(const Member& member) const;
   void setBounds();
+  void lookAhead(const ObservationView& observation);
   void passUnfiltered();
   void passFiltered();
   void keepDeparture(bool rows_act, const Decision& decision, Member& member) const;
@@ -111,8 +120,10 @@ class TeamController {
   Differences differences_;
   DisturbanceObserver disturbances_;
   SafetyFilter filter_;
+  std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
   std::vector<Member> members_;
+  std::vector<Vector3> places_;  // [A] m, relative to the leader
   std::vector<Decision> decisions_;  // [M]
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered

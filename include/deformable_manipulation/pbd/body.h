@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deformable_manipulation/pbd/response.h"
+#include "deformable_manipulation/pbd/rest_shapes.h"
 #include "deformable_manipulation/pbd/rest.h"
 #include "deformable_manipulation/pbd/types.h"
 
@@ -120,6 +121,10 @@ class Body {
   //! between its holds, with respect to each held point. Starts from what the last call found.
   //! @param to [holds x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
   virtual ResponseStatus response(double* to);
+
+  //! What tells how the object rests if it is held elsewhere; null: there is none for objects of this kind.
+  //! @param agents where they hold the object, with the orientations that they keep; the body itself is held nowhere
+  virtual std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const;
 
   // Copies -------------------------------------------------------------------------------------
 

@@ -34,7 +34,13 @@ class Rod final : public Body {
   double stretch() const override;
   Wrench wrench(int particle) const override;
   ResponseStatus response(double* to) override;
+  std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
   void layOut() override;
+
+  //! Puts the object itself, at rest, into a measured shape, without a twist of its own.
+  //! @param points [(segments + 1) x 3] m; segments lie between them, as long as they are anyway
+  void setShape(const double* points);
+
   void points(double* to) const override;
   Pose pose(int particle) const override;
   void positions(int copy, double* to) const override;

@@ -40,6 +40,7 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
         "assistants": list(scenario.assistants),
         "commanded": commanded,
         "references": starts[commanded] - starts[leader],
+        "places": starts - starts[leader],
         "cycle_time": scenario.cycle_time,
         "safety": safety,
         "barriers": list(scenario.controller.barriers),

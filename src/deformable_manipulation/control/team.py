@@ -4,6 +4,7 @@ import time
 
 from deformable_manipulation import _control
 from deformable_manipulation.control.decision import Decision
+from deformable_manipulation.control.forecast import Forecast
 from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.reference_solver import find_solver
@@ -53,6 +54,12 @@ class TeamController:
             *native_parameters(scenario, names, safety), find_solver(scenario.controller.solver)
         )
         self._last = None
+        self._forecast = None
+        if safety and scenario.controller.horizon.length > 0.0:
+            self._forecast = Forecast(scenario)
+            self._native.look_ahead(
+                self._forecast.shapes, self._forecast.distance, self._forecast.triangles
+            )
 
     @property
     def names(self):
@@ -110,6 +117,11 @@ class TeamController:
         if fault:
             self._last = self.wait(fault)
             return self._last
+        if self._forecast is not None:
+            self._forecast.move(observation.time)
+            ahead = self._forecast.leader_ahead(observation.time)
+            if ahead is not None:
+                self._native.announce(ahead)
         answer = self._native.update(observation)
         if answer is not None:
             computation_time = time.perf_counter() - started

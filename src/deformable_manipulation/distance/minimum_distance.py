@@ -62,6 +62,11 @@ class MinimumDistance:
         #: Sentences about what was mended or ignored in the meshes.
         self.warnings = tuple(warnings)
 
+    @property
+    def native(self):
+        """The C++ core's ``_distance.MinimumDistance``."""
+        return self._native
+
     def set_pose(self, index, pose):
         """Move an obstacle.
 

@@ -19,9 +19,11 @@ from deformable_manipulation.reading.readers import (
     Node,
     Number,
     Report,
+    Section,
     vector,
 )
 from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.horizon import HorizonSpec
 
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
@@ -161,6 +163,13 @@ class _ControllerKeys:
         default_text="`0.1`; for fabrics `0`",
         paper=0.0,
         live=Live(("disturbance_filter",), 0.0, 10.0),
+        native=True,
+    )
+    horizon: HorizonSpec = parameter(
+        Section(HorizonSpec),
+        "How far the controllers look ahead, see [mathematics.md](mathematics.md#horizon).",
+        default=HorizonSpec(),
+        default_text="all defaults",
         native=True,
     )
     perturbation: Vector = parameter(

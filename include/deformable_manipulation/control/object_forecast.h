@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "deformable_manipulation/control/features.h"
+#include "deformable_manipulation/distance/minimum_distance.h"
+#include "deformable_manipulation/pbd/rest_shapes.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! The object as it will rest when its agents have moved on: its shapes at several times ahead, and their distances.
+//!
+//! Obstacles stand where they are now; how they move is told by the features.
+class ObjectForecast {
+ public:
+  //! @param triangles of the object's points; empty: a polyline
+  ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes, std::shared_ptr<distance::MinimumDistance> distance,
+                 std::vector<std::array<int, 3>> triangles);
+
+  //! Looks ahead from an observed state.
+  //! @param held [nodes x agents] m, where the agents will hold the object
+  void look(const ObservationView& observation, const std::vector<Vector3>& held);
+
+  //! The near features of the object at a node with their gradients; none where its shape is not known.
+  void takeFeatures(int node, int leader, Features& features) const;
+
+ private:
+  std::shared_ptr<pbd::RestShapes> shapes_;
+  std::shared_ptr<distance::MinimumDistance> distance_;
+  std::vector<std::array<int, 3>> triangles_;
+  int agents_ = 0;
+  std::vector<int> place_;                // [nodes] among those known, or -1
+  std::vector<double> points_;            // [known x P x 3] m
+  std::vector<double> responses_;         // [known x A x P x 3 x 3]
+  const distance::Distances* distances_;  // of those known
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation

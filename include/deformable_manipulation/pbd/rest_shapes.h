@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/pbd/types.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! Shapes in which an object would rest if its agents held it elsewhere than they do, for looking ahead.
+class RestShapes {
+ public:
+  virtual ~RestShapes() = default;
+
+  //! Geometry points P of a shape.
+  virtual int pointCount() const = 0;
+
+  //! The shape from which searches start where no shape nearby is known.
+  //! @param points [P x 3] m, of the object itself as it is now
+  virtual void setPresent(const double* points) = 0;
+
+  //! Looks for shapes; each search starts from the shape of the same number that was found last.
+  //! @param held [shapes x agents] m, where the agents hold it
+  virtual void find(const std::vector<Vector3>& held) = 0;
+
+  //! Whether a shape was found.
+  virtual bool known(int shape) const = 0;
+
+  //! Points [P x 3] m of a shape that is known.
+  virtual void points(int shape, double* to) const = 0;
+
+  //! Derivative [agents x P x 3 x 3] of a known shape's points with respect to each held point.
+  virtual void response(int shape, double* to) const = 0;
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "deformable_manipulation/pbd/rest_shapes.h"
+#include "deformable_manipulation/pbd/rod.h"
+#include "deformable_manipulation/pbd/rod_equilibrium.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! Rest shapes of a rod: its equilibria, eight at a time.
+class RodRestShapes final : public RestShapes {
+ public:
+  //! @param rod held nowhere
+  //! @param agents where they hold it, with the orientations that they keep
+  RodRestShapes(const Rod& rod, const std::vector<HeldPoint>& agents);
+
+  int pointCount() const override { return rod_->pointCount(); }
+  void setPresent(const double* points) override;
+  void find(const std::vector<Vector3>& held) override;
+  bool known(int shape) const override;
+  void points(int shape, double* to) const override { equilibrium_.points(shape, to); }
+  void response(int shape, double* to) const override;
+
+ private:
+  std::unique_ptr<Rod> rod_;
+  RodEquilibrium equilibrium_;
+  std::vector<int> agent_of_hold_;
+  std::vector<Vector3> held_;             // [shapes x holds] m
+  mutable std::vector<double> response_;  // [holds x P x 3 x 3]
+};
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,58 @@
+#include "deformable_manipulation/control/object_forecast.h"
+
+#include <utility>
+
+#include "deformable_manipulation/control/response_gradients.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+ObjectForecast::ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes,
+                               std::shared_ptr<distance::MinimumDistance> distance,
+                               std::vector<std::array<int, 3>> triangles)
+    : shapes_(std::move(shapes)),
+      distance_(std::move(distance)),
+      triangles_(std::move(triangles)),
+      distances_(nullptr) {}
+
+void ObjectForecast::look(const ObservationView& observation, const std::vector<Vector3>& held) {
+  agents_ = observation.agents;
+  const int nodes = static_cast<int>(held.size()) / agents_;
+  const std::size_t numbers = 3 * static_cast<std::size_t>(shapes_->pointCount());
+  shapes_->setPresent(observation.coordinates);
+  shapes_->find(held);
+  place_.assign(static_cast<std::size_t>(nodes), -1);
+  points_.resize(numbers * nodes);
+  responses_.resize(3 * numbers * agents_ * nodes);
+  int known = 0;
+  for (int node = 0; node < nodes; ++node) {
+    if (shapes_->known(node)) {
+      shapes_->points(node, &points_[numbers * known]);
+      shapes_->response(node, &responses_[3 * numbers * agents_ * known]);
+      place_[node] = known++;
+    }
+  }
+  if (known > 0) {
+    distance::ObjectView object;
+    object.points = points_.data();
+    object.copies = known;
+    object.point_count = shapes_->pointCount();
+    object.triangles = triangles_.empty() ? nullptr : triangles_.data();
+    object.triangle_count = static_cast<int>(triangles_.size());
+    distances_ = &distance_->compute(object, known);
+  }
+}
+
+void ObjectForecast::takeFeatures(int node, int leader, Features& features) const {
+  const int place = place_[node];
+  if (place < 0) {
+    features.clear();
+    return;
+  }
+  const std::size_t numbers = 9 * static_cast<std::size_t>(shapes_->pointCount()) * agents_;
+  takeResponseGradients({*distances_, place, false}, {&responses_[numbers * place], agents_, shapes_->pointCount()},
+                        leader, features);
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation
