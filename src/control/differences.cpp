@@ -85,6 +85,23 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
   }
 }
 
+void Differences::takeResponse(std::vector<double>& to) const {
+  using Derivative = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  const Eigen::Index points = agents_.front().rates.cols() / 3;
+  to.resize(9 * points * agents_.size());
+  for (Eigen::Index point = 0; point < points; ++point) {
+    Derivative leader(&to[9 * (leader_ * points + point)]);
+    leader.setIdentity();
+    for (std::size_t agent = 0; agent < agents_.size(); ++agent) {
+      if (static_cast<int>(agent) != leader_) {
+        Derivative derivative(&to[9 * (agent * points + point)]);
+        derivative = agents_[agent].rates.middleCols<3>(3 * point).transpose();
+        leader -= derivative;
+      }
+    }
+  }
+}
+
 void Differences::takeGradients(const distance::Distances& distances, Features& features) const {
   features.take({distances}, static_cast<int>(agents_.size()));
   for (int m = 0; m < features.size(); ++m) {
@@ -100,7 +117,7 @@ void Differences::takeGradients(const distance::Distances& distances, Features& 
 }
 
 void Differences::takeMinimum(const distance::Distances& distances, Features& features) const {
-  features.take({distances, 0, true}, static_cast<int>(agents_.size()));
+  features.take({distances, 0, 1}, static_cast<int>(agents_.size()));
   for (int agent = 0; agent < features.agents() && features.size() > 0; ++agent) {
     if (agent != leader_) {
       features.gradient(0, agent) = agents_[agent].rates.rightCols<1>();

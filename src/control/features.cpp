@@ -6,8 +6,7 @@ namespace deformable_manipulation {
 namespace control {
 
 int ChosenFeatures::count() const {
-  const int all = distances.offsets[copy + 1] - distances.offsets[copy];
-  return nearest_only ? std::min(all, 1) : all;
+  return std::min(most, distances.offsets[copy + 1] - distances.offsets[copy]);
 }
 
 void Features::clear() {

@@ -6,6 +6,12 @@
 
 namespace deformable_manipulation {
 namespace control {
+namespace {
+
+// Of a node, the nearest: what is farther away there is nearest at another node, or does not act.
+constexpr int kMostFeatures = 8;
+
+}  // namespace
 
 ObjectForecast::ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes,
                                std::shared_ptr<distance::MinimumDistance> distance,
@@ -16,19 +22,21 @@ ObjectForecast::ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes,
       distances_(nullptr) {}
 
 void ObjectForecast::look(const ObservationView& observation, const std::vector<Vector3>& held) {
+  pbd::RestShapes& shapes = shapes_ != nullptr ? *shapes_ : linear_;
   agents_ = observation.agents;
   const int nodes = static_cast<int>(held.size()) / agents_;
-  const std::size_t numbers = 3 * static_cast<std::size_t>(shapes_->pointCount());
-  shapes_->setPresent(observation.coordinates);
-  shapes_->find(held);
+  points_of_shape_ = shapes.pointCount();
+  const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
+  shapes.setPresent(observation.coordinates);
+  shapes.find(held);
   place_.assign(static_cast<std::size_t>(nodes), -1);
   points_.resize(numbers * nodes);
   responses_.resize(3 * numbers * agents_ * nodes);
   int known = 0;
   for (int node = 0; node < nodes; ++node) {
-    if (shapes_->known(node)) {
-      shapes_->points(node, &points_[numbers * known]);
-      shapes_->response(node, &responses_[3 * numbers * agents_ * known]);
+    if (shapes.known(node)) {
+      shapes.points(node, &points_[numbers * known]);
+      shapes.response(node, &responses_[3 * numbers * agents_ * known]);
       place_[node] = known++;
     }
   }
@@ -36,7 +44,7 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
     distance::ObjectView object;
     object.points = points_.data();
     object.copies = known;
-    object.point_count = shapes_->pointCount();
+    object.point_count = points_of_shape_;
     object.triangles = triangles_.empty() ? nullptr : triangles_.data();
     object.triangle_count = static_cast<int>(triangles_.size());
     distances_ = &distance_->compute(object, known);
@@ -49,8 +57,8 @@ void ObjectForecast::takeFeatures(int node, int leader, Features& features) cons
     features.clear();
     return;
   }
-  const std::size_t numbers = 9 * static_cast<std::size_t>(shapes_->pointCount()) * agents_;
-  takeResponseGradients({*distances_, place, false}, {&responses_[numbers * place], agents_, shapes_->pointCount()},
+  const std::size_t numbers = 9 * static_cast<std::size_t>(points_of_shape_) * agents_;
+  takeResponseGradients({*distances_, place, kMostFeatures}, {&responses_[numbers * place], agents_, points_of_shape_},
                         leader, features);
 }
 

@@ -48,7 +48,8 @@ TeamController::TeamController(const ControllerParameters& p)
 }
 
 void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
-  horizon_ = std::make_unique<Horizon>(parameters_, std::move(forecast));
+  forecast_ = std::move(forecast);
+  horizon_ = std::make_unique<Horizon>(parameters_, forecast_);
 }
 
 void TeamController::announce(std::vector<Vector3> displacements) {
@@ -251,7 +252,11 @@ void TeamController::decide(const ObservationView& observation) {
 bool TeamController::findGradients(const ObservationView& observation) {
   const bool nearest_only = !parameters_.team.formulation.every_feature;
   if (parameters_.exact_gradients && observation.sensitivities != nullptr) {
-    takeResponseGradients({*observation.distances, 0, nearest_only},
+    ChosenFeatures chosen{*observation.distances};
+    if (nearest_only) {
+      chosen.most = 1;
+    }
+    takeResponseGradients(chosen,
                           {observation.sensitivities, observation.agents, observation.points},
                           parameters_.team.leader, features_);
     for (Decision& decision : decisions_) {
@@ -318,6 +323,7 @@ void TeamController::setBounds() {
 void TeamController::lookAhead(const ObservationView& observation) {
   const bool looks = parameters_.safety && horizon_ != nullptr;
   if (looks) {
+    tellResponse(observation);
     horizon_->plan(observation, predicted_, places_);
   }
   const double most = parameters_.max_velocity;
@@ -327,6 +333,19 @@ void TeamController::lookAhead(const ObservationView& observation) {
                               : Vector3(nominal.cwiseMax(-most).cwiseMin(most) +
                                         horizon_->departure(members_[i].agent));
   }
+}
+
+//! Tells the forecast how the object follows its held points, if it has to be told.
+void TeamController::tellResponse(const ObservationView& observation) {
+  if (!forecast_->needsResponse()) {
+    return;
+  }
+  if (decisions_.front().exact_jacobian) {
+    response_.assign(observation.sensitivities, observation.sensitivities + 9 * observation.agents * observation.points);
+  } else {
+    differences_.takeResponse(response_);
+  }
+  forecast_->setResponse(present_.positions, response_);
 }
 
 void TeamController::passUnfiltered() {

@@ -146,8 +146,8 @@ void bindController(py::module_& module) {
           "look_ahead",
           [](BoundController& bound, std::shared_ptr<RestShapes> shapes,
              const std::shared_ptr<NamedMinimumDistance>& distance, const py::object& triangles) {
-            if (shapes == nullptr || distance == nullptr) {
-              throw py::value_error("shapes and distance must not be None");
+            if (distance == nullptr) {
+              throw py::value_error("distance must not be None");
             }
             std::vector<std::array<int, 3>> faces;
             if (!triangles.is_none()) {

@@ -131,7 +131,7 @@ void bindGradients(py::module_& module) {
         }
         Features features;
         const ObservationView& view = reader.view();
-        takeResponseGradients({*view.distances, 0, nearest_only}, {view.sensitivities, view.agents, view.points},
+        takeResponseGradients(nearest_only ? ChosenFeatures{*view.distances, 0, 1} : ChosenFeatures{*view.distances}, {view.sensitivities, view.agents, view.points},
                               leader, features);
         return features;
       },

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "deformable_manipulation/control/observation.h"
@@ -11,8 +12,8 @@ namespace control {
 //! Which of the computed features are taken.
 struct ChosenFeatures {
   const distance::Distances& distances;
-  int copy = 0;               //!< of the object
-  bool nearest_only = false;  //!< the feature of the minimum alone
+  int copy = 0;  //!< of the object
+  int most = std::numeric_limits<int>::max();  //!< so many, the nearest
 
   const distance::Feature* first() const { return distances.features.data() + distances.offsets[copy]; }
   int count() const;

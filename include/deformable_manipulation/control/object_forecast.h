@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deformable_manipulation/control/features.h"
+#include "deformable_manipulation/control/linear_shapes.h"
 #include "deformable_manipulation/distance/minimum_distance.h"
 #include "deformable_manipulation/pbd/rest_shapes.h"
 
@@ -16,9 +17,18 @@ namespace control {
 //! Obstacles stand where they are now; how they move is told by the features.
 class ObjectForecast {
  public:
+  //! @param shapes null: shapes are told to first order, see needsResponse()
   //! @param triangles of the object's points; empty: a polyline
   ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes, std::shared_ptr<distance::MinimumDistance> distance,
                  std::vector<std::array<int, 3>> triangles);
+
+  //! Whether it has to be told how the object follows its held points before it looks ahead.
+  bool needsResponse() const { return shapes_ == nullptr; }
+
+  //! See LinearShapes.
+  void setResponse(std::vector<Vector3> held, const std::vector<double>& response) {
+    linear_.setResponse(std::move(held), response);
+  }
 
   //! Looks ahead from an observed state.
   //! @param held [nodes x agents] m, where the agents will hold the object
@@ -29,9 +39,11 @@ class ObjectForecast {
 
  private:
   std::shared_ptr<pbd::RestShapes> shapes_;
+  LinearShapes linear_;
   std::shared_ptr<distance::MinimumDistance> distance_;
   std::vector<std::array<int, 3>> triangles_;
   int agents_ = 0;
+  int points_of_shape_ = 0;  // P
   std::vector<int> place_;                // [nodes] among those known, or -1
   std::vector<double> points_;            // [known x P x 3] m
   std::vector<double> responses_;         // [known x A x P x 3 x 3]

@@ -108,6 +108,7 @@ class TeamController {
   Vector3 slowed(const Member& member) const;
   void setBounds();
   void lookAhead(const ObservationView& observation);
+  void tellResponse(const ObservationView& observation);
   void passUnfiltered();
   void passFiltered();
   void keepDeparture(bool rows_act, const Decision& decision, Member& member) const;
@@ -120,10 +121,12 @@ class TeamController {
   Differences differences_;
   DisturbanceObserver disturbances_;
   SafetyFilter filter_;
+  std::shared_ptr<ObjectForecast> forecast_;
   std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
   std::vector<Member> members_;
-  std::vector<Vector3> places_;  // [A] m, relative to the leader
+  std::vector<Vector3> places_;   // [A] m, relative to the leader
+  std::vector<double> response_;  // [A x P x 3 x 3]
   std::vector<Decision> decisions_;  // [M]
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered
