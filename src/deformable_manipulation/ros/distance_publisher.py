@@ -56,6 +56,7 @@ class DistancePublisher:
             node.refuse(f"The obstacles cannot be used: {error}")
         for warning in self._distance.warnings:
             rospy.logwarn(warning)
+        self._scenario = scenario
         self._obstacles = ObstacleTracker(scenario)
         self._frames = ObstacleFrames(scenario, prefix)
         self._latch = rospy.get_param("~lockstep", False)
@@ -110,4 +111,4 @@ class DistancePublisher:
 
     def _draw(self, distances, header, poses):
         self._frames.send(header, poses)
-        return distance_markers(distances, header)
+        return distance_markers(distances, header, self._scenario)
