@@ -43,8 +43,9 @@ def preset_values(kind: str, name: str) -> Dict[str, Any]:
 def read_with_material(node: Node, kind: str, read: Callable[[Node], Any]):
     """Read an ``object`` section after its ``material`` gave the keys that the section lacks.
 
-    :param node: the section, a mapping.
-    :param read: reader of the section without ``material``.
+    Args:
+        node: the section, a mapping.
+        read: reader of the section without ``material``.
     """
     if "material" not in node.value:
         return read(node)

@@ -78,8 +78,9 @@ Draft = Dict[str, Any]  # attributes of an AgentSpec that could be read; None: o
 def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
     """Read and check the ``agents`` section.
 
-    :param spec: the object, or None where it could not be read; then what depends on it is not
-        checked and Unreadable is raised.
+    Args:
+        spec: the object, or None where it could not be read; then what depends on it is not
+            checked and Unreadable is raised.
     """
     if not isinstance(node.value, dict) or not node.value:
         node.fail("must be a section with one section per agent, by name")

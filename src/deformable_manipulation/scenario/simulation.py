@@ -80,8 +80,9 @@ SIMULATION = Section(SimulationSpec, defaults={"substeps": None, "solver": None}
 def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSpec:
     """The section with what depends on the object filled in; what is not of it is reported.
 
-    :param simulation: as read, with None for what is not given.
-    :param spec: the object.
+    Args:
+        simulation: as read, with None for what is not given.
+        spec: the object.
     """
     if simulation.solver is not None and not spec.has_joints:
         report.add(

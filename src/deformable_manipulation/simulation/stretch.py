@@ -25,7 +25,8 @@ class StretchGauge:
     def measure(self, points: np.ndarray) -> float:
         """The largest change [1], with its sign.
 
-        :param points: (P, 3) geometry points [m].
+        Args:
+            points: (P, 3) geometry points [m].
         """
         edges = points.take(self._second, axis=0) - points.take(self._first, axis=0)
         ratios = np.einsum("ei,ei->e", edges, edges) / self._squared_lengths
