@@ -13,7 +13,7 @@ namespace control {
 //! @param observation with sensitivities
 //! @param leader index of the leader
 //! @param nearest_only the feature of the minimum alone, if there is one
-//! @param features what is filled
+//! @param features the result
 void takeResponseGradients(const ObservationView& observation, int leader, bool nearest_only, Features& features);
 
 }  // namespace control

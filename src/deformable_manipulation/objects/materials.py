@@ -68,10 +68,10 @@ def _filled(node: Node, kind: str, name: str, given: Mapping[str, Any]) -> Node:
 def _unknown(value, kind: str) -> str:
     for other in kinds_with_presets():
         if other != kind and isinstance(value, str) and value in presets(other):
-            hint = " that is a material of type {};".format(other)
+            hint = " it is a material of type {};".format(other)
             break
     else:
         hint = nearest(value, presets(kind)) if isinstance(value, str) else ""
-    return "is no known material of type {};{} known: {}".format(
+    return "is not a known material of type {};{} known: {}".format(
         kind, hint, ", ".join(presets(kind)) or "none; remove it, and give its values"
     )

@@ -126,6 +126,6 @@ def _roles() -> List[Line2D]:
         for marker, colour, label in (
             ("s", _GREY, "leader"),
             ("o", _GREY, "assistant"),
-            ("o", "white", "its place"),
+            ("o", "white", "place to keep"),
         )
     ]

@@ -392,9 +392,7 @@ class Section:
                 hint = nearest(name, self._known) or " remove it;"
                 node.report.add(
                     node.path + (name,),
-                    "is not a key of this place;{} known keys: {}".format(
-                        hint, ", ".join(self._known)
-                    ),
+                    "is not a key here;{} known keys: {}".format(hint, ", ".join(self._known)),
                 )
 
 

@@ -42,7 +42,7 @@ def _read_scenario(path: Path, reader: Reader, namespace: str) -> Scenario:
     except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
         raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
     raise RunDataError(
-        f"{path} contains no {TOPIC}, which tells its scenario; record with record:=true"
+        f"{path} contains no {TOPIC}, which holds its scenario; record with record:=true"
     )
 
 

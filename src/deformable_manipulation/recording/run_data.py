@@ -60,7 +60,7 @@ def make_assistant_series(
     """Put together an assistant's series from arrays (M,) by their names in the time series."""
     status = columns["status"]
     if not np.all(np.isfinite(status)):
-        raise RunDataError(f"the status of {agent} is not a number in places")
+        raise RunDataError(f"the status of {agent} has values that are not numbers")
     return AssistantSeries(
         agent=agent,
         time=time,

@@ -16,7 +16,7 @@ from deformable_manipulation.simulation.stretch import largest_stretch, valid_st
 
 _UNSTABLE_STARTS = {
     "moving": "the object still moved at the start",
-    "balanced": "the object started in a balance that may end with a fall or a snap",
+    "balanced": "the object started in an unstable balance: it may fall over or snap",
 }
 
 

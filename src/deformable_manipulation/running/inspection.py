@@ -1,4 +1,4 @@
-"""What a correct scenario comes to at its start, and what in it is rarely meant."""
+"""A summary of a correct scenario at its start, and values that are probably not intended."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -12,7 +12,7 @@ from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.scenario.spec import PolygonObstacle, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 
-_SIZES_APART = 100.0  # times the object: an obstacle of that size has rather another unit
+_SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
 _LARGE_PERTURBATION = 0.25  # of the free length between two agents
 _LARGE_MARGIN = 0.05  # of the free length between two agents
 _PATH_SAMPLES = 1000  # between waypoints, of which there are not many
@@ -21,7 +21,7 @@ _ROUNDING = 1.0 + 1e-6
 
 @dataclass(frozen=True)
 class Inspection:
-    """What is worth knowing before a run: facts, and what is allowed but rarely meant."""
+    """Facts worth knowing before a run, and values that are allowed but probably not intended."""
 
     facts: Tuple[str, ...]
     warnings: Tuple[str, ...]
@@ -32,7 +32,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
 
     Raises:
         _pbd.ParameterError: the object does not settle.
-        ValueError: an obstacle's shape is none.
+        ValueError: an obstacle's shape is invalid.
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
@@ -128,13 +128,15 @@ def _margin_warnings(scenario: Scenario) -> Iterator[str]:
     perturbation = max(map(abs, controller.perturbation))
     if perturbation > _LARGE_PERTURBATION * shortest:
         yield (
-            "controller.perturbation: {:g} m is large beside the {:.3g} m of object between two "
-            "agents. A tenth of that gives more local gradients".format(perturbation, shortest)
+            "controller.perturbation: {:g} m is large compared with the {:.3g} m of object between "
+            "two agents. A tenth of that length gives more local gradients".format(
+                perturbation, shortest
+            )
         )
     for name in controller.barriers:
         margin = getattr(getattr(controller, name), "margin", 0.0)
         if margin > _LARGE_MARGIN * shortest:
             yield (
-                "controller.{}.margin: {:g} m is large beside the {:.3g} m of object between two "
-                "agents".format(name, margin, shortest)
+                "controller.{}.margin: {:g} m is large compared with the {:.3g} m of object "
+                "between two agents".format(name, margin, shortest)
             )

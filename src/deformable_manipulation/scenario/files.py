@@ -39,7 +39,7 @@ def find_scenario(path_or_name: str) -> Path:
     if os.path.isfile(path):
         return path
     if os.path.exists(path) and not os.path.isdir(path):
-        raise ScenarioError([Problem("", "is no regular file")], str(path_or_name))
+        raise ScenarioError([Problem("", "is not a regular file")], str(path_or_name))
     is_bare_name = len(path.parts) == 1 and path.suffix in ("", ".yaml")
     if not is_bare_name:
         raise ScenarioError([Problem("", "there is no such file")], str(path_or_name))
@@ -55,6 +55,6 @@ def find_scenario(path_or_name: str) -> Path:
 
 def _unknown_name(name: str, folder: Path) -> str:
     known = sorted(entry.stem for entry in folder.glob("*.yaml"))
-    return "there is no such file, and no scenario of this name;{} scenarios: {}".format(
+    return "there is no such file and no scenario with this name;{} scenarios: {}".format(
         nearest(name, known), ", ".join(known)
     )

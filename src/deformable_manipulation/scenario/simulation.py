@@ -87,7 +87,7 @@ def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSp
     if simulation.solver is not None and not spec.has_joints:
         report.add(
             ("simulation", "solver"),
-            "is of a rod's joints; remove it",
+            "applies only to rods; remove it",
             show(simulation.solver),
         )
     filled = {}

@@ -62,7 +62,7 @@ def test_a_modulus_in_megapascals(mapping, key):
 
 def test_margins_that_do_not_fit_a_small_object(mapping):
     mapping["controller"]["perturbation"] = [0.1, 0.1, 0.5]
-    assert "controller.perturbation: 0.5 m is large beside" in only_warning(mapping)
+    assert "controller.perturbation: 0.5 m is large compared with" in only_warning(mapping)
     mapping["controller"]["perturbation"] = [0.1, 0.1, 0.1]
     mapping["controller"].setdefault("overstretch", {})["margin"] = 0.1
     assert "controller.overstretch.margin: 0.1 m is large" in only_warning(mapping)

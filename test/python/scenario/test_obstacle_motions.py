@@ -72,7 +72,7 @@ def test_there_is_exactly_one_source(with_motion, problems_of, motion):
         ({"topic": 3}, "topic", "a ROS topic"),
         ({"frame": ""}, "frame", "a tf frame"),
         ({"frame": "map"}, "frame", "another frame than the fixed one"),
-        ({"topic": "a", "rate": 3}, "rate", "is not a key of this place"),
+        ({"topic": "a", "rate": 3}, "rate", "is not a key here"),
         ({"waypoints": []}, "waypoints", "must be a list of waypoints"),
         ({"waypoints": [{"time": -1.0}]}, "waypoints.0.time", ">= 0"),
         ({"waypoints": [{"time": 1.0}, {"time": 1.0}]}, "waypoints.1.time", "at least 0.001 s"),
