@@ -71,7 +71,7 @@ def test_there_is_exactly_one_source(with_motion, problems_of, motion):
         ({"topic": "a//b"}, "topic", "a ROS topic"),
         ({"topic": 3}, "topic", "a ROS topic"),
         ({"frame": ""}, "frame", "a tf frame"),
-        ({"frame": "map"}, "frame", "another frame than the fixed one"),
+        ({"frame": "map"}, "frame", "must not be the fixed frame"),
         ({"topic": "a", "rate": 3}, "rate", "is not a key here"),
         ({"waypoints": []}, "waypoints", "must be a list of waypoints"),
         ({"waypoints": [{"time": -1.0}]}, "waypoints.0.time", ">= 0"),
