@@ -60,6 +60,6 @@ def _index_of(scenario: Scenario, name: str) -> int:
     assistants = {scenario.agents[i].name: i for i in scenario.assistants}
     if name not in assistants:
         raise ValueError(
-            f"agent: '{name}', allowed are the scenario's assistants: {', '.join(assistants)}"
+            f"agent: '{name}' must be one of the scenario's assistants: {', '.join(assistants)}"
         )
     return assistants[name]

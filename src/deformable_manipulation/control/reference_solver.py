@@ -28,7 +28,7 @@ def find_solver(name):
 
     if name not in qpsolvers.dense_solvers:
         raise ValueError(
-            f"controller.solver: '{name}', allowed are native and the installed dense solvers of "
+            f"controller.solver: '{name}' must be native or one of the installed dense solvers of "
             f"qpsolvers: {', '.join(sorted(qpsolvers.dense_solvers))}; install it or choose one"
         )
     if name == "quadprog":

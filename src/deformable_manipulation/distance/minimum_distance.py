@@ -135,7 +135,7 @@ def pose_problems(spec):
                 "scale is {}; it must be three finite numbers other than 0".format(spec.scale)
             )
     elif spec.plane not in PLANE_AXES:
-        problems.append("plane is {!r}; allowed are {}".format(spec.plane, _quoted(PLANE_AXES)))
+        problems.append("plane is {!r}; allowed: {}".format(spec.plane, _quoted(PLANE_AXES)))
     if not _are_numbers(spec.translation, 3):
         problems.append(
             "translation is {}; it must be three finite numbers of metres".format(spec.translation)
