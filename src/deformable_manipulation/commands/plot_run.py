@@ -101,7 +101,7 @@ def _formats(text: str) -> List[str]:
 
 def _draw(run: RunData, times: Optional[Sequence[float]], show: bool) -> Dict[str, object]:
     """Figures by the names of their files."""
-    # Imported late: matplotlib takes longer to load than a wrong path to be told.
+    # Imported late: matplotlib loads slowly, and a wrong path is reported at once.
     from deformable_manipulation.plots.controller_plot import plot_controller
     from deformable_manipulation.plots.overview_plot import plot_overview
 

@@ -1,4 +1,4 @@
-"""The pictures and the video that ``rviz_snapshot`` makes, once it is known of what."""
+"""Makes the pictures and the video of ``rviz_snapshot``."""
 
 import argparse
 import sys

@@ -112,7 +112,7 @@ class SteeredLeader:
         self._told_to_start = False
 
     def start(self):
-        """Begin the path with the next state, whoever follows.
+        """Begin the path with the next state, even if not all assistants follow.
 
         Raises:
             ValueError: it has begun, or the leader is moved by hand; the message says so.

@@ -27,7 +27,7 @@ def _folder() -> Path:
 def presets(kind: str) -> Mapping[str, Mapping[str, Any]]:
     """All presets for objects of a kind, by name, with their NOTES: ``config/materials/KIND.yaml``.
 
-    Not to be changed. None where there is no such file.
+    Not to be changed. None if there is no such file.
     """
     path = _folder() / "{}.yaml".format(kind)
     if not path.is_file():

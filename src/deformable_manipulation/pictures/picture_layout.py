@@ -65,7 +65,7 @@ def labelled(picture, lines, clear_of=()):
         clear_of: pictures (height, width, 3); the corner is the one where the least of them would
             be hidden. Default: the upper left one.
     """
-    # Imported late: they take longer to load than a mistake in the arguments to be told.
+    # Imported late: they load slowly, and a mistake in the arguments is reported at once.
     from matplotlib.font_manager import findfont
     from PIL import Image, ImageDraw, ImageFont
 

@@ -53,8 +53,8 @@ def plot_controller(
 
     Panels over a shared time axis: distance to the obstacle with its limit, norm of the tracking
     error, margins of the other barriers, and every moving component of the nominal and the
-    commanded velocity. Shading tells what the safety filter did; where a limit is violated, the
-    violation is filled and marked at its worst.
+    commanded velocity. Shading shows what the safety filter did. Violations of a limit are filled
+    and marked at their worst.
 
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
@@ -130,7 +130,7 @@ def _legend_above(axis: Axes) -> None:
 def _shade(
     axes, series: AssistantSeries, statuses: Tuple[Status, ...], colour: str, outline: float
 ) -> bool:
-    """Shade the times with one of the statuses in all panels; false where there are none."""
+    """Shade the times with one of the statuses in all panels; false if there are none."""
     intervals = _intervals(series.time, np.isin(series.status, statuses))
     for axis in axes:
         if intervals:

@@ -38,7 +38,7 @@ def draw_limit(axis: Axes, limit: float, label: str = "") -> None:
 
 
 def mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: float) -> bool:
-    """Fill what lies below a limit and mark the lowest point; false where nothing does."""
+    """Fill what lies below a limit and mark the lowest point; false if nothing does."""
     below = np.nan_to_num(values, nan=np.inf) < limit
     if not below.any():
         return False

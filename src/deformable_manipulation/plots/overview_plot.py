@@ -25,7 +25,7 @@ _VIEW_WIDTH, _PANEL_HEIGHT = 2.9, 1.0  # in
 _VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
 _AROUND = 0.6  # in, titles and labels
 _GREY = "#8C8C8C"
-# Of the assistants. Colours tell times here, dashes are limits.
+# Of the assistants. Colours are for times here, and dashes for limits.
 _STYLES = (
     {"color": BLACK, "linestyle": "-"},
     {"color": _GREY, "linestyle": "-", "linewidth": 2.0, "zorder": 1.9},

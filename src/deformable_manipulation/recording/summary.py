@@ -28,7 +28,7 @@ def summarise(
     safety: bool,
     start: str,
 ) -> dict:
-    """The numbers of a run; None where there is none (no obstacle, nothing recorded).
+    """The numbers of a run; None if there is none (no obstacle, nothing recorded).
 
     ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,

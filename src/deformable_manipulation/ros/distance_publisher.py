@@ -27,11 +27,11 @@ class Computed(NamedTuple):
     distances: DistanceFeatures  # of the core
     poses: np.ndarray  # (K, 7) of the moving obstacles
     computation_time: float  # s
-    fault: str  # why they are not known, as a clause; empty where they are
+    fault: str  # why they are not known, as a clause; empty if they are
 
 
 def known_distances(computed):
-    """The core's Distances of what was computed. Raises MessageError where they are not known."""
+    """The core's Distances of what was computed. Raises MessageError if they are not known."""
     if computed.fault:
         raise MessageError(computed.fault)
     return computed.distances

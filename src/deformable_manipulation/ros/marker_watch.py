@@ -1,4 +1,4 @@
-"""Whether everything that is to be seen of a state has been drawn."""
+"""Whether everything that shows a state has been drawn."""
 
 import threading
 

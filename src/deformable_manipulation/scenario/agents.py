@@ -79,7 +79,7 @@ def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
     """Read and check the ``agents`` section.
 
     Args:
-        spec: the object, or None where it could not be read; then what depends on it is not
+        spec: the object, or None if it could not be read; then what depends on it is not
             checked and Unreadable is raised.
     """
     if not isinstance(node.value, dict) or not node.value:

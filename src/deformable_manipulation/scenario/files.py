@@ -19,7 +19,7 @@ _PAPER_SCENARIOS = (
 def scenario_names() -> List[str]:
     """Names of the scenarios in ``config/scenarios``, those of the paper first.
 
-    Raises FileNotFoundError where this package's files are not found.
+    Raises FileNotFoundError if this package's files are not found.
     """
     names = [path.stem for path in _scenario_folder().glob("*.yaml")]
     order = {name: place for place, name in enumerate(_PAPER_SCENARIOS)}
@@ -33,7 +33,7 @@ def _scenario_folder() -> Path:
 def find_scenario(path_or_name: str) -> Path:
     """The file of a scenario: a path, or the bare name of one in ``config/scenarios``.
 
-    Raises ScenarioError where there is none.
+    Raises ScenarioError if there is none.
     """
     path = Path(path_or_name)
     if os.path.isfile(path):
