@@ -9,7 +9,7 @@ from matplotlib.ticker import SymmetricalLogLocator
 
 from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.geometry.lengths import millimetres
-from deformable_manipulation.plots.style import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
+from deformable_manipulation.plots.style import BLUE, COLUMN_WIDTH, STYLE, VERMILLION, legend_above
 
 _PANELS = (
     ("clearance", "lowest distance\nminus limit [mm]"),
@@ -45,14 +45,13 @@ def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> F
             if np.abs(lengths).max(initial=0.0) > _LINEAR:
                 axis.set_xscale("symlog", linthresh=_LINEAR)
                 axis.xaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=_LINEAR))
+                axis.xaxis.set_major_formatter("{x:g}")
             axis.margins(x=0.05)
         limit = f"limit {millimetres(offset)}"
         axes[0].axvline(0.0, color=VERMILLION, linestyle="--", linewidth=0.8, label=limit)
-        axes[0].legend(loc="lower right")
-        for axis in axes:
-            low, high = axis.get_xlim()
-            if high - low < _LEAST_RANGE:
-                axis.set_xlim(low - 0.05 * _LEAST_RANGE, low + _LEAST_RANGE)
+        legend_above(axes[0], *axes[0].get_legend_handles_labels())
+        for axis in axes[1:]:
+            axis.set_xlim(-0.05 * _LEAST_RANGE, max(axis.get_xlim()[1], _LEAST_RANGE))
         figure.suptitle(f"{name}: {len(outcomes)} runs")
     return figure
 

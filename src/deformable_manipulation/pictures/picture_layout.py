@@ -4,6 +4,7 @@ import numpy as np
 
 _DIFFERENT = 12  # of 255, in a channel, from the picture without what moves
 _ALIKE = 0.5  # of the pixels of pictures of the same view
+_STRIPE = 14  # pixels along an edge
 _OPAQUE = 96.0  # of 255, from the picture without what moves; less is taken as translucent
 _DARKEST = 0.7  # brightness of what is black in a picture that is drawn in one color
 _CLEARLY = 60  # of 255, in a channel: differs more than a faint grid
@@ -22,6 +23,8 @@ def is_alike(picture, other):
 def overlaid(base, empty, pictures, colors, top):
     """Pictures (height, width, 3) over each other, each in one color.
 
+    Where several of them show something, they take turns in stripes, so that none hides another.
+
     Args:
         base: what they are laid over, in shades of gray where it differs from the empty picture.
         empty: the pictures without what moves.
@@ -32,8 +35,12 @@ def overlaid(base, empty, pictures, colors, top):
     result = base.astype(float)
     traces = _differs(base, empty)
     result[traces] = _brightness(base[traces])[:, None]
+    covered = np.zeros(base.shape[:2], dtype=int)
+    stripes = np.add.outer(*(np.arange(length) for length in base.shape[:2])) // _STRIPE
     for picture, color in zip(pictures, colors):
         moves = _differs(picture, empty)
+        covered[moves] += 1
+        moves &= stripes % np.maximum(covered, 1) == np.maximum(covered, 1) - 1
         difference = np.abs(picture[moves].astype(int) - empty[moves]).max(axis=1)
         opacity = np.minimum(difference / _OPAQUE, 1.0)[:, None]
         light = _DARKEST + (1.0 - _DARKEST) * _brightness(picture[moves])[:, None] / _WHITE

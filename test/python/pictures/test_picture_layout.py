@@ -20,17 +20,22 @@ def with_block(rows, columns, shade=0):
 RED, BLUE = (255, 0, 0), (0, 0, 255)
 
 
-def test_each_picture_has_its_color_and_the_later_ones_are_above():
+def test_each_picture_has_its_color_and_labels_are_above():
     early = with_block(slice(0, 20), slice(0, 20))
-    late = with_block(slice(10, 30), slice(10, 20), 100)
+    late = with_block(slice(20, 30), slice(0, 20), 100)
     labels = with_block(slice(0, 10), slice(0, 20), 10)
     result = overlaid(plain(), plain(), [early, late], [RED, BLUE], labels).astype(int)
-    label, first, second, nothing = (
-        result[row, column] for row, column in ((5, 5), (15, 5), (15, 15), (50, 50))
-    )
+    label, first, second, nothing = (result[row, 15] for row in (5, 15, 25, 50))
     assert (nothing == 250).all() and (label == 10).all()
     assert first[0] > 150 and first[1] == first[2] == 0
     assert second[2] > 150 and second[0] == second[1] == 0
+
+
+def test_pictures_of_the_same_place_are_both_seen():
+    block = with_block(slice(0, 60), slice(0, 60))
+    result = overlaid(plain(), plain(), [block, block], [RED, BLUE], plain()).astype(int)[:, :60]
+    red, blue = result[..., 0] > 150, result[..., 2] > 150
+    assert (red ^ blue).all() and 0.3 < red.mean() < 0.7
 
 
 def test_what_is_faint_stays_faint():
