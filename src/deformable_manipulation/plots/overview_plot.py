@@ -1,7 +1,7 @@
 """One figure for a whole run: where everything was, and how near to the limits."""
 
 from itertools import cycle
-from typing import List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 from matplotlib import rc_context
@@ -26,7 +26,7 @@ _VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
 _AROUND = 0.6  # in, titles and labels
 _GREY = "#8C8C8C"
 # Of the assistants. Colours are for times here, and dashes for limits.
-_STYLES = (
+_STYLES: Sequence[Dict[str, Any]] = (
     {"color": BLACK, "linestyle": "-"},
     {"color": _GREY, "linestyle": "-", "linewidth": 2.0, "zorder": 1.9},
     {"color": BLACK, "linestyle": ":"},
