@@ -148,7 +148,8 @@ TEST(Response, followsTurnsThatItWasNotAskedAbout) {
   Rod rod(p);
   rod.hold(0, Hold::CLAMPED);
   rod.hold(27, Hold::CLAMPED);
-  rod.setPose(27, {rod.pose(27).position + Vector3(0.0, 0.01, 0.0), rod.pose(27).orientation});  // taut: it stays straight
+  rod.setPose(27,
+              {rod.pose(27).position + Vector3(0.0, 0.01, 0.0), rod.pose(27).orientation});  // taut: it stays straight
   ASSERT_TRUE(rod.settle(settling(2)));
   std::vector<double> response(2 * rod.pointCount() * 9), other(response.size());
   ASSERT_EQ(rod.response(response.data()), ResponseStatus::VALID);
