@@ -6,11 +6,13 @@ from typing import Iterator, Tuple
 
 import numpy as np
 
+from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.corners import obstacle_corners
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.scenario.spec import PolygonObstacle, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
+from deformable_manipulation.simulation.observer import Observer
 
 _SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
 _LARGE_PERTURBATION = 0.25  # of the free length between two agents
@@ -48,6 +50,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
         warnings += _unlikely_size(obstacle, corners, size)
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
+    facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
     warnings += _start_too_near(scenario, start)
     warnings += _path_warnings(scenario)
     warnings += _margin_warnings(scenario)
@@ -68,6 +71,28 @@ def _extent_of(obstacle, corners: np.ndarray) -> str:
     low, high = _bounds(corners)
     endless = ", endless across its plane" if isinstance(obstacle, PolygonObstacle) else ""
     return "obstacle {} reaches from {} to {} m{}".format(obstacle.name, low, high, endless)
+
+
+def _barriers(scenario: Scenario, observer: Observer) -> Iterator[str]:
+    """Each barrier in use: the lengths it keeps, and the h of each assistant at the start."""
+    observation = observer.observe()
+    starts = {}
+    for names in teams(scenario):
+        starts.update(TeamController(scenario, names, False).update(observation))
+    for name in scenario.controller.barriers:
+        section = getattr(scenario.controller, name)
+        lengths = [
+            "{} {:g} m".format(key, getattr(section, key))
+            for key in ("offset", "margin")
+            if hasattr(section, key)
+        ]
+        values = [
+            "{} {:.4g} m".format(agent, decision.h[name])
+            for agent, decision in starts.items()
+            if np.isfinite(decision.h[name])
+        ]
+        start = ", ".join(values) if values else "nothing to keep from"
+        yield "barrier {}: {}; h at the start: {}".format(name, ", ".join(lengths), start)
 
 
 def _unlikely_size(obstacle, corners: np.ndarray, size: float) -> Iterator[str]:

@@ -197,3 +197,8 @@ def test_formats(tmp_path, ending, magic):
 def test_pdf_fonts_are_of_a_type_that_publishers_accept(tmp_path):
     save_figure(plot(make_run()), tmp_path / "figure.pdf")
     assert b"/Type3" not in (tmp_path / "figure.pdf").read_bytes()
+
+
+def test_a_barrier_of_any_name_has_its_margin():
+    figure = plot(make_run(h={"workspace": np.full(100, 0.02)}))
+    assert labels(figure.axes[2]) == ["workspace (min 20 mm)"]

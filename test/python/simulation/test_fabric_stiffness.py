@@ -68,6 +68,7 @@ def test_too_few_substeps_are_told():
     assert effective > 5.0 * DENIM[0]
     assert "with 10 substeps this mesh behaves like one of" in simulation.softness
     assert f"simulation.substeps: {needed} keeps" in simulation.softness
+    assert f"takes {needed / 10:.3g} times as long" in simulation.softness
 
 
 def test_an_inextensible_fabric_yields_a_little():
