@@ -22,12 +22,14 @@ records = [loop.step() for _ in range(scenario.cycles)]
 lowest = min(records, key=lambda record: record.distance)
 print(f"lowest distance from the stairs: {1e3 * lowest.distance:.1f} mm at {lowest.time:.1f} s")
 
-figure = Figure(figsize=(6, 4), layout="constrained")
+figure = Figure(figsize=(6, 3.5), layout="constrained")
 axes = figure.add_subplot(xlabel="y [m]", ylabel="z [m]", aspect="equal")
 axes.fill(*zip(*STAIRS), color="#c8c8c8")
 for record in sorted([*records[::1600], lowest], key=lambda record: record.time):
-    label = f"{record.time:.0f} s" + (", nearest" if record is lowest else "")
+    label = f"{record.time:.0f} s: {1e3 * record.distance:.0f} mm"
     axes.plot(record.points[:, 1], record.points[:, 2], label=label)
-axes.set(xlim=(-0.3, 3.3), ylim=(-0.2, 2.0))
-axes.legend(ncols=2)
+axes.set(xlim=(-0.3, 4.0), ylim=(-0.2, 2.0))
+limit = scenario.controller.collision.offset
+axes.set_title(f"distance to the stairs (limit {1e3 * limit:.0f} mm)")
+axes.legend(loc="upper right")
 figure.savefig(folder / "stairs.png", dpi=150)

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     }
     ros::getGlobalCallbackQueue()->callAvailable();
   } catch (const rosbag::BagException& error) {
-    ROS_FATAL_STREAM("The recording fails: " << error.what() << ".");
+    ROS_FATAL_STREAM("The recording failed: " << error.what() << ".");
     return 1;
   }
   return 0;

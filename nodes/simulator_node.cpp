@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   if (!node.getParam("scenario", scenario)) {
     ROS_FATAL_STREAM("Parameter " << node.resolveName("scenario")
                                   << " is missing: start with launch/run.launch, which checks the scenario file and "
-                                     "puts it there.");
+                                     "sets the parameter.");
     return 1;
   }
   deformable_manipulation::SimulatorOptions options;
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     ROS_FATAL_STREAM("The scenario cannot be simulated:\n" << error.what());
     return 1;
   } catch (const deformable_manipulation::pbd::NonFiniteState& error) {
-    ROS_FATAL_STREAM("The simulation stops: " << error.what() << ".");
+    ROS_FATAL_STREAM("The simulation stopped: " << error.what() << ".");
     return 1;
   }
   return 0;

@@ -16,7 +16,7 @@ bool isSlope(double value) { return std::isfinite(value) && value > 0.0; }
 PiecewiseLinearClassK::PiecewiseLinearClassK(double above, double below) : above_(above), below_(below) {
   if (!isSlope(above) || !isSlope(below)) {
     std::ostringstream text;
-    text << "slopes: (" << above << ", " << below << "), allowed are two positive finite numbers [1/s]";
+    text << "slopes: (" << above << ", " << below << "); they must be two positive finite numbers [1/s]";
     throw std::invalid_argument(text.str());
   }
 }

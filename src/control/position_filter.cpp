@@ -10,7 +10,7 @@ namespace control {
 PositionFilter::PositionFilter(double time_constant) : time_constant_(time_constant) {
   if (!(time_constant >= 0.0) || !std::isfinite(time_constant)) {
     throw std::invalid_argument("the time constant of a filter is " + std::to_string(time_constant) +
-                                " s, it must be >= 0");
+                                " s; it must be >= 0");
   }
 }
 

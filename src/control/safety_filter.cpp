@@ -29,7 +29,7 @@ std::vector<double> penaltiesOf(const Priority& priority) {
   for (int place = 0; place < limits; ++place) {
     const int limit = priority[place];
     if (limit < 0 || limit >= limits || penalties[limit] != 0.0) {
-      throw std::invalid_argument("priority: allowed is an order in which each limit stands once");
+      throw std::invalid_argument("priority must name each limit once");
     }
     const double step = (FIRST_PENALTY - LAST_PENALTY) / std::max(1, limits - 1);
     penalties[limit] = std::pow(10.0, FIRST_PENALTY - step * place);
@@ -53,7 +53,7 @@ SafetyFilter::SafetyFilter(const Eigen::VectorXd& weights, const Priority& prior
 
 void SafetyFilter::setWeights(const Eigen::VectorXd& weights) {
   if (weights.size() == 0 || !weights.allFinite() || !(weights.array() > 0.0).all()) {
-    throw std::invalid_argument("controller.weights: allowed are positive finite numbers");
+    throw std::invalid_argument("controller.weights must be positive finite numbers");
   }
   squares_ = (weights / weights.maxCoeff()).cwiseAbs2();
 }
@@ -82,7 +82,7 @@ Status SafetyFilter::decide(const Given& given) {
   }
   for (int row = 0; row < given.rows.size(); ++row) {
     if (given.rows.kind(row) < 0 || given.rows.kind(row) >= kinds()) {
-      throw std::invalid_argument("a row is of no kind that the filter has");
+      throw std::invalid_argument("a row has a kind that the filter does not know");
     }
     // A sum is finite only if all terms are.
     if (!std::isfinite(given.rows.coefficients(row).sum() + given.rows.bound(row))) {

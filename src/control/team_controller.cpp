@@ -67,7 +67,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
   const Team& team = parameters_.team;
   if (given.team.agents != team.agents || given.team.leader != team.leader || given.team.commanded != team.commanded ||
       given.team.assistants != team.assistants || given.barriers != parameters_.barriers) {
-    throw std::invalid_argument("parameters of other agents or barriers");
+    throw std::invalid_argument("the parameters belong to other agents or barriers");
   }
   ControllerParameters p = given;
   p.team.formulation = team.formulation;

@@ -7,7 +7,7 @@ namespace distance {
 
 //! Where a segment comes nearest to a boundary.
 struct BoundaryApproach {
-  double squared = INFINITY;  //!< [m^2] distance, 0 where they cross
+  double squared = INFINITY;  //!< [m^2] distance, 0 if they cross
   double parameter = 0.0;     //!< of the segment's point
   int edge = -1;              //!< an edge that it is nearest to
 };

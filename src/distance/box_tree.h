@@ -107,7 +107,7 @@ struct BoxNode {
     return of_child;
   }
 
-  //! Lower bounds [m^2] of the squared distances between another box and the children's; infinite where there is none.
+  //! Lower bounds [m^2] of the squared distances between another box and the children's; infinite if there is none.
   FourFloats squaredDistances(const Box& other) const {
     FourFloats sum = {};
     for (int k = 0; k < 3; ++k) {

@@ -111,7 +111,7 @@ MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach, const Neare
   return nearest;
 }
 
-//! The unit vector from the surface towards the element, or zero where they touch.
+//! The unit vector from the surface towards the element, or zero if they touch.
 Vector3 MeshSearch::towards(const Nearest& pair) const {
   const Vector3 point = weighted<3>(object_->corners<3>(pair.element), pair.at.weights);
   const Corners<3> triangle = surface_.corners(pair.triangle);

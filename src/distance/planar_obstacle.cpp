@@ -18,7 +18,7 @@ constexpr const char* kAxisNames = "xyz";
 //! The axes of a plane, two different letters in their order.
 std::array<int, 2> axesOf(const std::string& plane, std::vector<std::string>* problems) {
   if (plane != "xy" && plane != "yz" && plane != "xz") {
-    problems->push_back("plane is '" + plane + "'; allowed are 'xy', 'yz', 'xz'");
+    problems->push_back("plane is '" + plane + "'; it must be 'xy', 'yz' or 'xz'");
     return {0, 1};
   }
   const std::string names = kAxisNames;

@@ -25,7 +25,7 @@ Vector3 weighted(const Corners<K>& corners, const Weights& weights) {
   return sum;
 }
 
-//! The nearest point of a triangle to another point. Weights are exactly 0 where it is on an edge or a corner.
+//! The nearest point of a triangle to another point. Weights are exactly 0 if it is on an edge or a corner.
 struct NearestOnTriangle {
   double squared;  //!< [m^2]
   Weights weights;

@@ -139,12 +139,13 @@ std::string Fabric::softness(double time_step, int substeps) const {
   }
   std::ostringstream text;
   text << std::setprecision(3) << "object.stretching_compliance: with " << substeps
-       << " substeps this mesh yields like one of " << effective << " m/N instead of " << material << " m/N.";
+       << " substeps this mesh behaves like one of " << effective << " m/N instead of " << material << " m/N.";
   const int enough = substepsForStiffness(time_step, substeps, kMostSubsteps);
   if (effectiveCompliance(time_step / enough) <= kTrueStiffness * material) {
-    text << " simulation.substeps: " << enough << " keeps the true stiffness; a coarser mesh needs fewer.";
+    text << " simulation.substeps: " << enough << " keeps the true stiffness and takes "
+         << static_cast<double>(enough) / substeps << " times as long; a coarser mesh needs fewer.";
   } else {
-    text << " More simulation.substeps or a coarser mesh come nearer.";
+    text << " More simulation.substeps or a coarser mesh bring it closer to that.";
   }
   return text.str();
 }

@@ -37,7 +37,7 @@ bool touches(const HingeConstraint& hinge, const HingeConstraint& other) {
   return std::find_first_of(hinge.at, hinge.at + 4, other.at, other.at + 2) != hinge.at + 4;
 }
 
-//! Multiplier per violation, 1 / (response + compliance); 0 where nothing can move and nothing yields.
+//! Multiplier per violation, 1 / (response + compliance); 0 if nothing can move and nothing yields.
 double stiffness(double response, double compliance) {
   const double sum = response + compliance;
   return sum > 0.0 ? 1.0 / sum : 0.0;

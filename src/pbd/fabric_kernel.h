@@ -20,7 +20,7 @@ struct FabricLanes {
   AlignedArray previous_position;  // m
   AlignedArray velocity;           // m/s
   AlignedArray rest_length;        // [edges x lane] m, of the hinges and then the boundary edges, as adapted
-  AlignedArray finite;             // [lane] 0 where the copy's state was finite after the last call, else not a number
+  AlignedArray finite;             // [lane] 0 if the copy's state was finite after the last call, else not a number
 
   static constexpr AlignedArray FabricLanes::*kArrays[] = {&FabricLanes::position, &FabricLanes::previous_position,
                                                            &FabricLanes::velocity, &FabricLanes::rest_length};

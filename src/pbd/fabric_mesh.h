@@ -25,7 +25,7 @@ double triangleArea(const std::vector<Vector3>& vertices, const Triangle& triang
 std::vector<MeshEdge> meshEdges(const std::vector<Vector3>& vertices, const std::vector<Triangle>& triangles);
 
 //! Weights of the four points of an interior edge, vertices first, whose sum C has the length 2 |e| sin(angle / 2)
-//! for an edge of length |e| folded by an angle, and is zero where it is flat (Bergou et al. 2006).
+//! for an edge of length |e| folded by an angle, and is zero if it is flat (Bergou et al. 2006).
 std::array<double, 4> foldWeights(const std::vector<Vector3>& vertices, const MeshEdge& edge);
 
 //! Notes what is wrong with a mesh: vertices that are not finite or not used, triangles without area or given twice,

@@ -131,7 +131,7 @@ void FabricResponse::add(int vertex, int other, const Eigen::Matrix3d& block) {
   }
 }
 
-//! False where the shape is not stable or about to snap.
+//! False if the shape is not stable or about to snap.
 bool FabricResponse::solve() {
   solver_.factorize(stiffness_);
   if (solver_.info() != Eigen::Success || !(solver_.vectorD().minCoeff() > 0.0)) {

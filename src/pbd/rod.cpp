@@ -171,6 +171,7 @@ void Rod::layOut() {
     placeCopy(static_cast<int>(copy), segments);
   }
   state_->groups.fill(&RodLanes::multiplier, 0.0);
+  state_->groups.fill(&RodLanes::twist, 0.0);
   stop();
 }
 
@@ -197,6 +198,7 @@ void Rod::setShape(const double* points) {
   }
   placeCopy(0, segments);
   state_->groups.fill(&RodLanes::multiplier, 0.0);
+  state_->groups.fill(&RodLanes::twist, 0.0);
   stop();
 }
 
@@ -375,6 +377,8 @@ bool Rod::orientations(int copy, double* to) const {
   state_->groups.unpack(&RodLanes::orientation, copy, to);
   return true;
 }
+
+void Rod::twists(int copy, double* to) const { state_->groups.unpack(&RodLanes::twist, copy, to); }
 
 int Rod::firstNonFinite(int copy) const {
   const RodLanes& lanes = state_->groups.of(copy);

@@ -27,10 +27,11 @@ struct Elasticity {
 };
 
 DM_INLINE Elasticity elasticityOf(const Joint& joint, double bending, double torsion) {
-  Vec3 axis = joint.bTransposed(joint.d0);  // of twist
-  const Pack excess = broadcast(torsion - bending);
-  return {addOuter(addOuter(isotropic(broadcast(bending)), broadcast(-bending), joint.k), excess, axis),
-          scaleAdd(2.0 * excess * dot(joint.d0, joint.k), axis, (2.0 * bending * joint.w) * joint.k)};
+  const Pack lean = joint.lean;
+  const Pack torque = torsion * lean;  // per twist
+  const Pack relief = (-0.5 * bending) * lean;
+  return {addOuter(addOuter(isotropic(broadcast(bending)), relief, joint.normal), relief + lean * torque, joint.sum),
+          scaleAdd(torque * joint.twist, joint.sum, broadcast(bending) * joint.normal)};
 }
 
 //! The next segment and the joint after it, as they are once all before them is eliminated:
@@ -84,7 +85,7 @@ class RodChain {
     const bool active = in_.joint_active[j];
     Placement next = pack_.placement(j + 1);
     Vec3 d = tangentOf(next.q);
-    Joint joint = jointBetween(front.segment.q, front.tangent, next.q, d);
+    Joint joint = pack_.joint(j, front.segment.q, front.tangent, next.q, d);
     Elasticity elasticity =
         elasticityOf(joint, active ? in_.bending_stiffness : 0.0, active ? in_.torsion_stiffness : 0.0);
 

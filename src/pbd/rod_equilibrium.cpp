@@ -20,6 +20,7 @@ constexpr double kLargestResponse = 1e3;
 
 constexpr double kReach = 1.0 - 1e-9;         // of the free length, where the rod does not stretch
 constexpr double kFarFromEquilibrium = 0.05;  // of the rod's length
+constexpr double kOtherTurns = M_PI;          // rad
 
 bool sameHolds(const std::vector<HeldPoint>& a, const std::vector<HeldPoint>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HeldPoint& x, const HeldPoint& y) {
@@ -31,6 +32,7 @@ bool sameHolds(const std::vector<HeldPoint>& a, const std::vector<HeldPoint>& b)
 
 RodEquilibriumLanes::RodEquilibriumLanes(int segments, int spans, int holds)
     : orientation(4 * kLanes * segments),
+      twist(kLanes * (segments - 1)),
       force(3 * kLanes * spans),
       reach(3 * kLanes * spans),
       last_reach(3 * kLanes * spans),
@@ -71,7 +73,8 @@ struct RodEquilibrium::State {
   void startFrom(const Rod& rod, int slot, int copy);
   bool solve(const Rod& rod, int first, int last, const EquilibriumOptions& options);
   void search(RodEquilibriumLanes& lanes, int copies, const EquilibriumOptions& options);
-  ResponseStatus judge(int copy, const EquilibriumOptions& options);
+  ResponseStatus judge(const Rod& rod, int copy, const EquilibriumOptions& options);
+  bool isTwistedAs(const Rod& rod, int copy) const;
   bool outOfReach(int copy) const;
   bool swingsFreely(int copy) const;
   void points(int copy, double* to) const;
@@ -191,7 +194,7 @@ bool RodEquilibrium::State::solve(const Rod& rod, int first, int last, const Equ
   }
   bool all_valid = true;
   for (int copy = first; copy <= last; ++copy) {
-    status[copy] = judge(copy, options);
+    status[copy] = judge(rod, copy, options);
     all_valid = all_valid && status[copy] == ResponseStatus::VALID;
   }
   return all_valid;
@@ -273,6 +276,12 @@ void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   for (int i = 0; i < parameters.segments; ++i) {
     setOrientation(i, slot, &orientations[4 * i]);
   }
+  std::vector<double> twists(parameters.segments - 1);
+  rod.twists(elsewhere ? 0 : copy, twists.data());
+  AlignedArray& twist = groups[slot / kLanes].twist;
+  for (std::size_t i = 0; i < twists.size(); ++i) {
+    twist[i * kLanes + slot % kLanes] = twists[i];
+  }
   const Vector3 weight(input.weight[0], input.weight[1], input.weight[2]);
   for (std::size_t span = 0; span < spans.size(); ++span) {
     const int joints = spans[span].last - spans[span].first;
@@ -296,7 +305,7 @@ void RodEquilibrium::State::search(RodEquilibriumLanes& lanes, int copies, const
   lanes.last_reach = lanes.reach;
 }
 
-ResponseStatus RodEquilibrium::State::judge(int copy, const EquilibriumOptions& options) {
+ResponseStatus RodEquilibrium::State::judge(const Rod& rod, int copy, const EquilibriumOptions& options) {
   const RodEquilibriumLanes& lanes = groups[copy / kLanes];
   if (outOfReach(copy)) {
     return ResponseStatus::OUT_OF_REACH;
@@ -310,12 +319,27 @@ ResponseStatus RodEquilibrium::State::judge(int copy, const EquilibriumOptions& 
   if (elsewhere) {
     return ResponseStatus::VALID;
   }
+  if (!isTwistedAs(rod, copy)) {
+    return ResponseStatus::OTHER_SHAPE;
+  }
   points(copy, shape.data());
   double farthest = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) {
     farthest = std::max(farthest, std::abs(shape[i] - present[copy * shape.size() + i]));
   }
   return farthest < kFarFromEquilibrium * parameters.length ? ResponseStatus::VALID : ResponseStatus::OTHER_SHAPE;
+}
+
+//! Whether it has the turns of the simulated rod: it misses those that a hold makes while nobody asks for the shape.
+bool RodEquilibrium::State::isTwistedAs(const Rod& rod, int copy) const {
+  std::vector<double> twists(parameters.segments - 1);
+  rod.twists(copy, twists.data());
+  const double* at = &groups[copy / kLanes].twist[copy % kLanes];
+  double difference = 0.0;
+  for (std::size_t i = 0; i < twists.size(); ++i) {
+    difference += at[i * kLanes] - twists[i];
+  }
+  return std::abs(difference) < kOtherTurns;
 }
 
 bool RodEquilibrium::State::outOfReach(int copy) const {

@@ -9,6 +9,17 @@ namespace pbd {
 namespace DEFORMABLE_MANIPULATION_ISA {
 namespace {
 
+//! s (a b^T + b a^T) / 2
+DM_INLINE Symmetric3 symmetricProduct(const Pack& s, const Vec3& a, const Vec3& b) {
+  const Pack half = 0.5 * s;
+  return {s * a.x * b.x,
+          half * (a.y * b.x + a.x * b.y),
+          s * a.y * b.y,
+          half * (a.z * b.x + a.x * b.z),
+          half * (a.z * b.y + a.y * b.z),
+          s * a.z * b.z};
+}
+
 //! Moment M that a joint exerts on its first segment. With the rotation phi of the second segment
 //! against the first one, dM / dphi = stiffness - [M]x / 2 in the frame that turns with the first.
 struct JointMoment {
@@ -19,23 +30,12 @@ struct JointMoment {
 //! @param flexural  E I / l
 //! @param torsional  G J / l
 DM_INLINE JointMoment momentOf(const Joint& joint, const Pack& flexural, const Pack& torsional) {
-  const Pack excess = torsional - flexural;
-  const Pack twist = dot(joint.d0, joint.k);
-  const Vec3 p = joint.bTransposed(joint.d0);
+  const Pack torque = torsional * joint.twist;
+  const Vec3 axis = joint.axis();
   const Symmetric3 bending =
-      addOuter(isotropic(flexural * joint.w * joint.w - excess * twist * twist), -flexural, joint.k);
-  return {broadcast(2.0) * scaleAdd(excess * twist, p, (flexural * joint.w) * joint.k), addOuter(bending, excess, p)};
-}
-
-//! s (a b^T + b a^T) / 2
-DM_INLINE Symmetric3 symmetricProduct(const Pack& s, const Vec3& a, const Vec3& b) {
-  const Pack half = 0.5 * s;
-  return {s * a.x * b.x,
-          half * (a.y * b.x + a.x * b.y),
-          s * a.y * b.y,
-          half * (a.z * b.x + a.x * b.z),
-          half * (a.z * b.y + a.y * b.z),
-          s * a.z * b.z};
+      isotropic(flexural * dot(joint.d0, joint.d1)) - symmetricProduct(flexural, joint.d0, joint.d1);
+  const Symmetric3 twisting = addOuter(symmetricProduct(torque * joint.lean, axis, joint.normal), torsional, axis);
+  return {scaleAdd(torque, axis, flexural * joint.normal), bending + twisting};
 }
 
 //! The number of negative eigenvalues of a matrix, by its leading minors.
@@ -78,8 +78,6 @@ DM_INLINE void storeMatrix3(double* to, const Matrix3& a) {
   store3(to + 3 * kLanes, kLanes, a.y);
   store3(to + 6 * kLanes, kLanes, a.z);
 }
-
-DM_INLINE Pack largerOf(const Pack& a, const Pack& b) { return a > b ? a : b; }
 
 // A longer Newton step is cut to this: beyond, the linearisation means nothing.
 constexpr double kLongestTurn = 0.5;  // rad
@@ -184,7 +182,9 @@ class Equilibrium {
       if (i + 1 < in_.segments) {
         const Quat next = orientation(i + 1);
         next_tangent = tangentOf(next);
-        after = momentOf(jointBetween(q, d, next, next_tangent), flexural, torsional);
+        const Joint joint = jointBetween(q, d, next, next_tangent, load(at(s_.twist, i)));
+        store(at(s_.twist, i), joint.twist);
+        after = momentOf(joint, flexural, torsional);
         q = next;
       }
       const Vec3 force_after = force(i);

@@ -34,6 +34,7 @@ struct RodEquilibriumLanes {
   RodEquilibriumLanes(int segments, int spans, int holds);
 
   AlignedArray orientation;  // [N x 4] quaternion x y z w
+  AlignedArray twist;        // [N - 1] rad, of each joint, up to a turn
   AlignedArray force;        // [S x 3] N, of the first joint of a span on the span's first segment
   AlignedArray reach;        // [S x 3] m, from the first to the last held centre of a span
   AlignedArray last_reach;   // [S x 3] m, of the shape found last

@@ -19,11 +19,16 @@ struct RodLanes {
   AlignedArray previous_orientation;  // [N x 4]
   AlignedArray angular_velocity;      // [N x 3] rad/s, fixed frame
   AlignedArray multiplier;            // [(N - 1) x 6] force and torque of the second segment on the first, times h^2
+  AlignedArray twist;                 // [N - 1] rad, of each joint, up to a turn
 
-  static constexpr AlignedArray RodLanes::*kArrays[] = {
-      &RodLanes::position,    &RodLanes::previous_position,    &RodLanes::velocity,
-      &RodLanes::orientation, &RodLanes::previous_orientation, &RodLanes::angular_velocity,
-      &RodLanes::multiplier};
+  static constexpr AlignedArray RodLanes::*kArrays[] = {&RodLanes::position,
+                                                        &RodLanes::previous_position,
+                                                        &RodLanes::velocity,
+                                                        &RodLanes::orientation,
+                                                        &RodLanes::previous_orientation,
+                                                        &RodLanes::angular_velocity,
+                                                        &RodLanes::multiplier,
+                                                        &RodLanes::twist};
 };
 
 //! A held segment during one substep.

@@ -28,7 +28,8 @@ RodLanes::RodLanes(int segments)
       orientation(4 * kLanes * segments),
       previous_orientation(4 * kLanes * segments),
       angular_velocity(3 * kLanes * segments),
-      multiplier(6 * kLanes * (segments - 1)) {}
+      multiplier(6 * kLanes * (segments - 1)),
+      twist(kLanes * (segments - 1)) {}
 
 std::vector<RodKernel> availableRodKernels() {
   std::vector<RodKernel> kernels;

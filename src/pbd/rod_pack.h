@@ -33,6 +33,7 @@ class RodPack {
         previous_orientation_(lanes.previous_orientation.data() + first_lane),
         angular_velocity_(lanes.angular_velocity.data() + first_lane),
         multiplier_(lanes.multiplier.data() + first_lane),
+        twist_(lanes.twist.data() + first_lane),
         first_lane_(first_lane) {}
 
   DM_INLINE Placement placement(int i) const {
@@ -48,6 +49,14 @@ class RodPack {
     double* to = multiplier_ + 2 * at3(j);
     store3(to, kLanes, wrench.force);
     store3(to + 3 * kLanes, kLanes, wrench.torque);
+  }
+
+  //! Joint j between two segments and their tangents; keeps count of its turns.
+  DM_INLINE Joint joint(std::ptrdiff_t j, const Quat& q0, const Vec3& d0, const Quat& q1, const Vec3& d1) const {
+    double* twist = twist_ + kLanes * j;
+    Joint joint = jointBetween(q0, d0, q1, d1, load(twist));
+    store(twist, joint.twist);
+    return joint;
   }
 
   //! Moves all segments as if there were no joints, and the held ones to where they are held.
@@ -110,6 +119,7 @@ class RodPack {
   double* const previous_orientation_;
   double* const angular_velocity_;
   double* const multiplier_;
+  double* const twist_;
   const int first_lane_;
 };
 

@@ -20,6 +20,26 @@ DM_INLINE Vec3 applyInverseInertia(const Inverse& inverse, const Vec3& d, const 
   return scaleAdd((inverse.axial - inverse.transverse) * dot(d, v), d, inverse.transverse * v);
 }
 
+//! l times the second part of C: bend across and twist along the first tangent.
+struct Strain {
+  Quat dq;
+  Vec3 d0;
+  Vec3 bend;  // k without its part along the tangent
+  Vec3 axis;  // u - b
+  Pack twist;
+
+  DM_INLINE Vec3 value() const { return scaleAdd(twist, d0, broadcast(2.0) * bend); }
+  //! l B v, where B is its derivative by the second segment's rotation.
+  DM_INLINE Vec3 change(const Vec3& v) const { return scaleAdd(dot(axis, v), d0, crossAdd(v, dq.v, dq.w * v)); }
+  //! l B^T v
+  DM_INLINE Vec3 pull(const Vec3& v) const { return scaleAdd(dot(d0, v), axis, crossAdd(dq.v, v, dq.w * v)); }
+};
+
+DM_INLINE Strain strainOf(const Joint& joint, const Quat& dq) {
+  const Vec3 b = crossAdd(dq.v, joint.d0, dq.w * joint.d0);
+  return {dq, joint.d0, scaleAdd(-dot(joint.d0, dq.v), joint.d0, dq.v), joint.axis() - b, joint.twist};
+}
+
 class RodSweep {
  public:
   RodSweep(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
@@ -52,32 +72,34 @@ class RodSweep {
   DM_INLINE JointWrench solve(int j, Placement& first, Placement& second) {
     Inverse i0 = inverseOf(j);
     Inverse i1 = inverseOf(j + 1);
-    Joint joint = jointBetween(first.q, tangentOf(first.q), second.q, tangentOf(second.q));
+    Joint joint = pack_.joint(j, first.q, tangentOf(first.q), second.q, tangentOf(second.q));
+    Strain strain = strainOf(joint, rotationBetween(first.q, second.q));
     const Pack lever0 = half_length_ * i0.transverse;
     const Pack lever1 = half_length_ * i1.transverse;
 
-    // [ X  Y^T ; Y  Z ] [ force ; moment ] = -[ gap ; 2 k ], the second row times l.
+    // [ X  Y^T ; Y  Z ] [ force ; moment ] = -[ gap ; strain ], the second row times l.
     const Pack mass = i0.mass + i1.mass + in_.floor_compliance;
     Symmetric3 x = addOuter(addOuter(isotropic(mass + half_length_ * (lever0 + lever1)),
                                      in_.axial_compliance - half_length_ * lever0, joint.d0),
                             -half_length_ * lever1, joint.d1);
     Matrix3 levers = crossMatrix(lever1 * joint.d1 - lever0 * joint.d0);
-    Matrix3 y = {joint.b(levers.x), joint.b(levers.y), joint.b(levers.z)};
+    Matrix3 y = {strain.change(levers.x), strain.change(levers.y), strain.change(levers.z)};
     const Pack transverse = i0.transverse + i1.transverse;
-    Symmetric3 z = addOuter(isotropic(transverse + in_.bending_compliance), -transverse, joint.k);
-    z = addOuter(z, i0.axial - i0.transverse, joint.b(joint.d0));
-    z = addOuter(z, i1.axial - i1.transverse, joint.b(joint.d1));
-    z = addOuter(z, broadcast(in_.torsion_compliance - in_.bending_compliance), joint.d0);
+    Symmetric3 z = addOuter(isotropic(transverse + in_.bending_compliance), -transverse, strain.bend);
+    z = addOuter(z, i0.axial - i0.transverse, strain.change(joint.d0));
+    z = addOuter(z, i1.axial - i1.transverse, strain.change(joint.d1));
+    z = addOuter(z, transverse * (2.0 * joint.lean - 1.0) + (in_.torsion_compliance - in_.bending_compliance),
+                 joint.d0);
 
     // Force first: x^-1 y^T, then what is left for the moment.
     Symmetric3 p = inverse(x);
     Vec3 gap = gapOf(joint, first.x, second.x, half_length_);
     Matrix3 v = y * p;
     Symmetric3 q = inverse(z - multiplyTransposedAdd(v, y, Symmetric3{}));
-    Vec3 moment = q * multiplyAdd(v, gap, broadcast(-2.0) * joint.k);
+    Vec3 moment = q * multiplyAdd(v, gap, -strain.value());
     Vec3 force = -transposedMultiplyAdd(v, moment, p * gap);
 
-    Vec3 torque = -joint.bTransposed(moment);
+    Vec3 torque = -strain.pull(moment);
     move(j, first, i0, joint.d0, force, crossAdd(half_length_ * joint.d0, force, torque));
     move(j + 1, second, i1, joint.d1, -force, crossAdd(half_length_ * joint.d1, force, -torque));
     return {force, torque};

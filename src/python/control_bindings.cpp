@@ -91,10 +91,10 @@ void bindFilter(py::module_& module) {
            "before.")
       .def(
           "position", [](const ShapedFilter& f, double time) { return f.shaped(f.filter.position(time)); },
-          py::arg("time"), "Positions [m] at a time, at constant velocity. Raises RuntimeError where none is known.")
+          py::arg("time"), "Positions [m] at a time, at constant velocity. Raises RuntimeError if none is known.")
       .def(
           "velocity", [](const ShapedFilter& f) { return f.shaped(f.filter.velocity()); },
-          "[m/s] at the newest measurements. Raises RuntimeError where none is known.");
+          "[m/s] at the newest measurements. Raises RuntimeError if none is known.");
 }
 
 }  // namespace

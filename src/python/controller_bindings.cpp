@@ -162,7 +162,7 @@ void bindController(py::module_& module) {
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
       .def("update", &update, py::arg("observation"),
-           "The Answer to an observation; None where the state is not newer than the last one.")
+           "The Answer to an observation; None if the state is not newer than the last one.")
       .def(
           "wait", [](BoundController& bound) { return bound.controller.wait(); }, "Decisions to stand still.")
       .def(

@@ -112,7 +112,7 @@ void bindSimulation(py::module_& module) {
           "sentences; otherwise empty.")
       .def_property_readonly(
           "rest_warning", [](const Simulation& simulation) { return describe(simulation.rest()); },
-          "Sentences on what is wrong with it and what helps; empty where it is stable.")
+          "Sentences on what is wrong with it and what helps; empty if it is stable.")
       .def_property_readonly("cycle", &Simulation::cycle)
       .def_property_readonly("reset_count", &Simulation::resetCount)
       .def_property_readonly("time", &Simulation::time, "Seconds since the start.")

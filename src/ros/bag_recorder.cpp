@@ -42,7 +42,7 @@ BagRecorder::~BagRecorder() {
   }
   bag_.close();
   if (std::rename((path_ + kActive).c_str(), path_.c_str()) != 0) {
-    ROS_ERROR_STREAM("The bag stays " << path_ << kActive << ": it cannot be renamed.");
+    ROS_ERROR_STREAM("The bag keeps the name " << path_ << kActive << ": it cannot be renamed.");
   }
 }
 

@@ -19,7 +19,7 @@ std::string CommandInbox::receive(const geometry_msgs::TwistStamped& command, co
   } else if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
     why << "it is not finite";
   } else if (twist.linear.norm() > kLargestSpeed || twist.angular.norm() > kLargestAngularSpeed) {
-    why << "it asks for " << twist.linear.norm() << " m/s and " << twist.angular.norm() << " rad/s; allowed are "
+    why << "it asks for " << twist.linear.norm() << " m/s and " << twist.angular.norm() << " rad/s; the limits are "
         << kLargestSpeed << " and " << kLargestAngularSpeed;
   } else if (command.header.stamp > latest) {
     why << "its stamp " << command.header.stamp

@@ -113,7 +113,7 @@ bool ObjectServices::setMaterial(SetMaterial::Request& request, SetMaterial::Res
       parameters.push_back({request.keys[i], request.values[i]});
     }
     simulation_.setMaterial(parameters);
-    return std::string("The material is changed.");
+    return std::string("The material has been changed.");
   });
 }
 

@@ -133,7 +133,8 @@ void Simulator::publish() {
   const ros::Time stamp =
       options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime()) : ros::Time::now();
   if (stamp < state_.header.stamp) {
-    ROS_WARN("The clock was set back by %.3f s; commands count from now on.", (state_.header.stamp - stamp).toSec());
+    ROS_WARN("The clock was set back by %.3f s; commands are accepted from now on.",
+             (state_.header.stamp - stamp).toSec());
     for (AgentLink& link : links_) {
       link.reset();
     }
@@ -182,7 +183,7 @@ void Simulator::addResponse() {
   diagnostics_.countResponse(status);
   if (status != pbd::ResponseStatus::VALID) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
-                             "The exact response of the object is not known, its perturbed copies take "
+                             "The exact response of the object is not known; its perturbed copies take "
                              "over: "
                                  << pbd::describe(status) << ".");
   }

@@ -81,7 +81,7 @@ void SimulatorDiagnostics::reportObject(Status& status) {
   status.addf("exact responses found", "%ld of %ld", last_.responses - last_.unknown_responses, last_.responses);
   if (std::abs(stretch) > simulation_.body().largestStretch()) {
     status.summaryf(DiagnosticStatus::WARN,
-                    "Its length is %.1f %% off: pulled apart, or more simulation.substeps are needed.",
+                    "Its length is wrong by %.1f %%: it is pulled apart, or needs more simulation.substeps.",
                     100.0 * stretch);
   } else if (last_.unknown_responses > 0) {
     status.summaryf(DiagnosticStatus::WARN,

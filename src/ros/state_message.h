@@ -15,7 +15,7 @@ namespace deformable_manipulation {
 void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const std::string& frame,
                ObjectState& message);
 
-//! Writes the exact response of the object to its agents into a message; empty where it is not known.
+//! Writes the exact response of the object to its agents into a message; empty if it is not known.
 pbd::ResponseStatus fillSensitivities(pbd::Simulation& simulation, ObjectState& message);
 
 geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time& stamp, const std::string& frame);

@@ -118,6 +118,7 @@ TEST_P(Kernels, agreeForEveryInstructionSet) {
     expectNear(lanes.position, expected.position, 1e-9, kernel.instruction_set + std::string(" position"));
     expectNear(lanes.orientation, expected.orientation, 1e-9, kernel.instruction_set + std::string(" orientation"));
     expectNear(lanes.velocity, expected.velocity, 1e-7, kernel.instruction_set + std::string(" velocity"));
+    expectNear(lanes.twist, expected.twist, 1e-7, kernel.instruction_set + std::string(" twist"));
     expectNear(lanes.multiplier, expected.multiplier, 1e-7, kernel.instruction_set + std::string(" multiplier"));
   }
 }

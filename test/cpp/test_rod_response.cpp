@@ -20,6 +20,7 @@ struct Grips {
   std::vector<std::pair<int, Hold>> holds;  // along y, 1.5 m from the first to the last
   Stretch stretch;
   double young_modulus;
+  double twist = 0.0;  // rad, of the last hold
 };
 
 std::unique_ptr<Rod> heldRod(const Grips& grips) {
@@ -33,6 +34,14 @@ std::unique_ptr<Rod> heldRod(const Grips& grips) {
     rod->hold(particle, type, gripAt(p, Vector3(0.02 * particle / p.segments, along, 0.1 * along)));
   }
   rod->layOut();
+  if (grips.twist != 0.0) {
+    const int last = grips.holds.back().first;
+    rod->setTwist(last, {Vector3::Zero(), grips.twist * Vector3::UnitY()});
+    for (int i = 0; i < 100; ++i) {
+      rod->step(0.01, 2);
+    }
+    rod->setTwist(last, Twist());
+  }
   return rod;
 }
 
@@ -132,6 +141,34 @@ TEST(Response, followsTheHoldsWarmStarted) {
   }
 }
 
+TEST(Response, followsTurnsThatItWasNotAskedAbout) {
+  RodParameters p = rope();
+  p.gravity.setZero();
+  p.stretch = Stretch::FROM_MODULI;
+  Rod rod(p);
+  rod.hold(0, Hold::CLAMPED);
+  rod.hold(27, Hold::CLAMPED);
+  rod.setPose(27,
+              {rod.pose(27).position + Vector3(0.0, 0.01, 0.0), rod.pose(27).orientation});  // taut: it stays straight
+  ASSERT_TRUE(rod.settle(settling(2)));
+  std::vector<double> response(2 * rod.pointCount() * 9), other(response.size());
+  ASSERT_EQ(rod.response(response.data()), ResponseStatus::VALID);
+  rod.setTwist(27, {Vector3::Zero(), 2.0 * M_PI * Vector3::UnitY()});
+  for (int i = 0; i < 1000; ++i) {
+    rod.step(0.01, 2);
+  }
+  rod.setTwist(27, Twist());
+  ASSERT_TRUE(rod.settle(settling(2)));
+  ASSERT_EQ(rod.response(response.data()), ResponseStatus::VALID);
+  RodEquilibrium fresh;
+  fresh.update(rod, 1);
+  ASSERT_EQ(fresh.status(0), ResponseStatus::VALID);
+  fresh.response(0, other.data());
+  for (std::size_t i = 0; i < response.size(); ++i) {
+    ASSERT_NEAR(response[i], other[i], 1e-4) << i;
+  }
+}
+
 TEST(Response, movesAllPointsWithAllHolds) {
   auto rod = hangingRope(rope(), 1.5, Hold::PINNED);
   ASSERT_TRUE(rod->settle(settling()));
@@ -181,6 +218,12 @@ INSTANTIATE_TEST_SUITE_P(
               {{0, Hold::PINNED}, {14, Hold::CLAMPED}, {27, Hold::PINNED}},
               Stretch::FROM_MODULI,
               30e6},
+        Grips{"twisted", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::ZERO, 30e6, 5.0},
+        Grips{"twistedBetweenPins",
+              {{0, Hold::CLAMPED}, {14, Hold::PINNED}, {27, Hold::CLAMPED}},
+              Stretch::FROM_MODULI,
+              30e6,
+              -4.0},
         Grips{"oneHold", {{5, Hold::CLAMPED}}, Stretch::ZERO, 30e6}),
     [](const testing::TestParamInfo<Grips>& info) { return info.param.name; });
 

@@ -164,7 +164,7 @@ class InARow:
 
 
 def process_of(name):
-    """Number of a node's process; 0 where there is no such node that answers."""
+    """Number of a node's process; 0 if there is no such node that answers."""
     try:
         uri = rosgraph.Master(rospy.get_name()).lookupNode(rospy.resolve_name(name))
         return ServerProxy(uri).getPid(rospy.get_name())[2]

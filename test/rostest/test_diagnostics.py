@@ -62,7 +62,9 @@ class DiagnosticsTest(FaultTest):
         program = self.wait_for_report(PROGRAM, DiagnosticStatus.OK)
         self.assertGreater(float(program["lowest distance [m]"]), 0.0)
         self.assertIn("largest slack, collision [m/s]", program)
-        self.wait_for_report("controller: inputs", DiagnosticStatus.OK, "All inputs come in time.")
+        self.wait_for_report(
+            "controller: inputs", DiagnosticStatus.OK, "All inputs arrive in time."
+        )
         self.wait_for_report("leader: motion", DiagnosticStatus.OK, "Follows its path.")
 
     def test_an_input_that_stays_away_is_named(self):

@@ -205,7 +205,7 @@ class LeaderByHandTest(unittest.TestCase):
         self.decisions.wait_for(
             lambda decision: abs(decision.error_norm - 0.1) < 1e-3, "an error", len(self.decisions)
         )
-        self.select(AGENT, "Keep the present place")
+        self.select(AGENT, "Keep the current place")
         self.decisions.wait_for(
             lambda decision: decision.error_norm < 1e-3, "no error", len(self.decisions)
         )
@@ -217,7 +217,7 @@ class LeaderByHandTest(unittest.TestCase):
         self.select("Reset")
         self.states.wait_for(lambda state: state.reset_count > resets, "a reset")
         self.assertTrue(call("step", Step, 1).success)
-        self.select("Go on")
+        self.select("Continue")
         self.states.wait_for(
             lambda state: state.reset_count > resets and state.cycle > CYCLES, "further cycles"
         )

@@ -15,7 +15,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! What a barrier's value is taken of.
+//! The state from which a barrier's value is computed.
 struct PresentState {
   std::vector<Vector3> positions;  //!< [A] m, held points
   double distance;                 //!< [m] signed minimum of the object; infinite: no obstacle
@@ -25,7 +25,7 @@ struct PresentState {
 class BarrierRows {
  public:
   //! @param kind of the barrier's rows, see ConstraintRows
-  //! @param anticipation kind of the rows that are wishes for later
+  //! @param anticipation kind of the rows that are wishes
   BarrierRows(ConstraintRows& rows, int kind, int anticipation)
       : rows_(rows), kind_(kind), anticipation_(anticipation) {}
 
@@ -33,7 +33,7 @@ class BarrierRows {
   //! @return the coefficients [3 M], zeros to be filled in before the next row is added
   Eigen::Map<Eigen::VectorXd> limit(double bound) { return rows_.add(kind_, bound); }
 
-  //! The same as a wish, which yields to every limit.
+  //! Adds the same as a wish, which yields to every limit.
   Eigen::Map<Eigen::VectorXd> anticipate(double bound) { return rows_.add(anticipation_, bound); }
 
  private:
@@ -45,12 +45,12 @@ class BarrierRows {
 //! Keeps quantities h from becoming negative, by constraints dh/dt >= -alpha(h) on the commanded velocities.
 //!
 //! A barrier is two files in barriers/, found by their names at build time, and a declaration of its parameters in
-//! Python; CONTRIBUTING.md shows the way.
+//! Python; CONTRIBUTING.md shows how to add one.
 class Barrier {
  public:
   virtual ~Barrier() = default;
 
-  //! The least h of an agent [m], without margins; infinite where nothing limits it.
+  //! The lowest h of an agent [m], without margins; infinite if nothing limits it.
   virtual double value(const PresentState& state, int agent) const = 0;
 
   //! Adds the constraints on the velocities of the commanded assistants.
@@ -60,12 +60,16 @@ class Barrier {
 //! Makes a barrier from its section of the scenario.
 using BarrierMaker = std::function<std::unique_ptr<Barrier>(const ParameterSection& section, const Team& team)>;
 
+<<<<<<< HEAD
 //! Barriers by their names, from the section `controller`.
 //! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for what is wrong in the section
 std::vector<std::unique_ptr<Barrier>> makeBarriers(const std::vector<std::string>& names,
                                                    const ParameterValue& controller, const Team& team);
 
 //! How to make each barrier that there is, by its name.
+=======
+//! The functions that make the barriers, by name.
+>>>>>>> c75c69061654980d65981bb05228244ef398b8e5
 const std::map<std::string, BarrierMaker>& barrierMakers();
 
 }  // namespace control

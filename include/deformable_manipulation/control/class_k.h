@@ -9,7 +9,7 @@ namespace control {
 
 //! Extended class K-infinity function of two slopes (paper, section VI): how fast a barrier may be approached.
 //!
-//! The first slope says how fast h may shrink while safe, the second how fast a violation is to be mended.
+//! The first slope says how fast h may shrink while safe, the second how fast a violation is corrected.
 class PiecewiseLinearClassK {
  public:
   //! @param above, below [1/s] slopes for h >= 0 and for h < 0

@@ -9,15 +9,15 @@ namespace control {
 //! Constraints coefficients . u >= bound on a velocity u of any number of components.
 //!
 //! Each row is of a kind: with L barriers, 0 to L - 1 are their limits, in the team's order, and L is anticipation:
-//! wishes for later rather than limits, always the first to yield. The rows of a kind share one slack, see
+//! wishes rather than limits, which always yield first. The rows of a kind share one slack, see
 //! SafetyFilter.
 //!
-//! Keeps its memory from one cycle to the next.
+//! Its memory is reused from one cycle to the next.
 class ConstraintRows {
  public:
   using Coefficients = Eigen::Map<const Eigen::VectorXd>;
 
-  //! Starts afresh, for velocities of so many components.
+  //! Removes all rows; sets the number of components of the velocities.
   void clear(int components) {
     components_ = components;
     kinds_.clear();

@@ -12,6 +12,7 @@ namespace control {
 
 using pbd::Vector3;
 
+<<<<<<< HEAD
 //! How far a controller looks ahead, see Horizon.
 struct HorizonParameters {
   double length;        //!< [s] 0: not at all
@@ -26,19 +27,23 @@ struct HorizonParameters {
 
 //! What a controller is made of. Ranges, defaults and meanings of the keys are declared in Python, see
 //! docs/parameters.md; here are only their values.
+=======
+//! The parameters of a controller. Only the values are here; ranges, defaults and meanings of the keys are declared in
+//! Python, see docs/parameters.md.
+>>>>>>> c75c69061654980d65981bb05228244ef398b8e5
 struct ControllerParameters {
   std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
   std::vector<Vector3> places;        //!< [A] m, the same of all agents
   double cycle_time;                  //!< [s]
   bool safety;                        //!< false: the nominal velocity within its limits
   double gain;                        //!< [1/s]
-  Vector3 weights;                    //!< cost of departing from the nominal velocity per axis
+  Vector3 weights;                    //!< cost of deviating from the nominal velocity, per axis
   double max_velocity;                //!< [m/s] of every component
   double max_acceleration;            //!< [m/s^2] of every component
   double max_jerk;                    //!< [m/s^3] of every component
-  double smoothing;                   //!< [s] time constant of a departure from the nominal velocity; 0: none
+  double smoothing;                   //!< [s] time constant of a deviation from the nominal velocity; 0: none
   double disturbance_filter;          //!< [s] time constant of the disturbance observer; 0: none
-  double timeout;                     //!< [s] a state older than the last by more means that time was set back
+  double timeout;                     //!< [s] if a state is older than the last by more, time was set back
   bool exact_gradients;               //!< from the response, where it is known
   HorizonParameters horizon;
   Team team;                          //!< who is commanded, and who else there is
@@ -46,7 +51,7 @@ struct ControllerParameters {
   Priority priority;                  //!< of the barriers, by their numbers in that order
   ParameterValue values;              //!< the section `controller`, of which the barriers read theirs
 
-  //! Reads the section `controller` and what is known of its team.
+  //! Reads the section `controller` and its team.
   static ControllerParameters read(const ParameterSection& controller, const ParameterSection& team);
 };
 

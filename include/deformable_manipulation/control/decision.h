@@ -13,9 +13,9 @@ using pbd::Vector3;
 
 constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 
-//! What an assistant's controller decided in one cycle, and on what grounds.
+//! What an assistant's controller decided in one cycle, and why.
 //!
-//! The command is always finite. Everything else is NaN where it is not known, as while waiting for valid input.
+//! The command is always finite. Everything else is NaN if it is not known, for example while waiting for valid input.
 struct Decision {
   Status status = Status::WAITING;
   bool enabled = true;
@@ -33,7 +33,7 @@ struct Decision {
   std::vector<double> slack;                      //!< [m/s] by how much the rows of each barrier are missed at most
   double solve_time = 0.0;                        //!< [s] of the safety filter
 
-  //! Starts afresh, for so many barriers; keeps its memory.
+  //! Resets everything, for a number of barriers; keeps its memory.
   void clear(int barriers);
 };
 

@@ -13,13 +13,13 @@ namespace control {
 //! For each agent with copies, the rates dX / dp_j of all points X and of the minimum distance with respect to
 //! the three components of its held point p are (X_c - X_0) / d for a copy c displaced by d along one axis.
 //! Displacements in any other directions are solved for together: opposite ones give central differences,
-//! oblique ones the least-squares solution. Only copies that are ready count; along the directions that no
-//! ready copy spans, the last rates are held.
+//! oblique ones the least-squares solution. Only ready copies count; in directions that
+//! no ready copy spans, the last rates stay.
 //!
-//! Copies of the leader are not used: its gradients are the rest (see Features). Beside the copies that this
-//! saves, it makes the predicted rate exact for a formation that moves as one, where differences over 0.1 m
-//! for each agent separately have a bias that does not cancel. An assistant without usable copies counts as
-//! moving with the leader: its part is in the rest.
+//! The leader needs no copies: its gradients are the normals minus the others (see Features). This saves copies, and
+//! it makes the predicted rate exact for a formation that moves as one. Differences over 0.1 m for each agent
+//! separately would have a bias that does not cancel. An assistant without usable copies counts as moving with the
+//! leader, whose gradients then include its part.
 class Differences {
  public:
   Differences(int agents, int leader);
@@ -33,12 +33,17 @@ class Differences {
   //! Takes in the copies of an observation.
   void update(const ObservationView& observation);
 
+<<<<<<< HEAD
   //! All features of copy 0, each with the rates of its own material point: as that of a locally nearest pair,
   //! its distance changes with the points' motion along the normal, g[m, a, j] = normal . dX_m / dp_aj.
   //! How the object's points follow the held points, as far as the copies tell.
   //! @param to [A x P x 3 x 3] d point / d held point; of all agents together the identity
   void takeResponse(std::vector<double>& to) const;
 
+=======
+  //! All features of copy 0, each with the rates of its own material point. The distance of a locally nearest pair
+  //! changes with the points' motion along the normal: g[m, a, j] = normal . dX_m / dp_aj.
+>>>>>>> c75c69061654980d65981bb05228244ef398b8e5
   void takeGradients(const distance::Distances& distances, Features& features) const;
 
   //! The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6).

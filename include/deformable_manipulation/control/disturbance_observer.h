@@ -10,13 +10,13 @@ namespace control {
 
 //! Disturbances: rates at which distances change that neither the gradients nor the obstacles' velocities explain.
 //!
-//! The gradients are those of an object at rest. One that swings or lags behind its equilibrium, is made of another
-//! material than assumed, or nears an obstacle whose velocity nobody tells, moves otherwise. With the measured
+//! The gradients are those of an object at rest. An object moves differently if it swings, lags behind its equilibrium
+//! or is made of another material than assumed, or if an obstacle of unknown velocity comes near. With the measured
 //! distance d of a feature from state to state, the gradients g_a, the velocities v_a and the obstacle's velocity w,
 //!
 //!   e <- e + (1 - exp(-dt / tau)) (dd/dt - sum_a g_a . v_a + n . w - e) ,
 //!
-//! from zero on for a feature that is new. A feature is followed by its identity.
+//! starting from zero for a new feature. Features are followed by their identities.
 class DisturbanceObserver {
  public:
   //! @param time_constant tau [s]; 0: all rates are 0
@@ -25,7 +25,7 @@ class DisturbanceObserver {
   void setTimeConstant(double time_constant);
   void reset();
 
-  //! Takes the features of a state, and gives each its rate (Features::disturbance).
+  //! Updates the rates from the features of a state and stores them there (Features::disturbance).
   //! @param time [s] of the state, later than the last
   //! @param velocities [A] m/s, of the held points from the last state to this one
   //! @param obstacle_velocity whether the rows know the obstacles' velocities; else w counts as part of the disturbance

@@ -10,15 +10,15 @@ namespace control {
 
 //! Solver of small dense strictly convex quadratic programs of diagonal Hessian.
 //!
-//! The dual active-set method of Goldfarb and Idnani (1983): starts at the minimum without constraints and
-//! takes in the most violated one, dropping those that hold it back, until all hold. In the variables
+//! This is the dual active-set method of Goldfarb and Idnani (1983). It starts at the minimum without constraints and
+//! adds the most violated constraint, dropping those that block it, until all hold. In the variables
 //! y = diag(hessian)^(1/2) x the cost is half the squared distance from the start, so that the factorisation
-//! N = Q R of the active constraints' normals is all that there is to keep. Rows count in the distance by
-//! which y violates them, whatever their scale.
+//! N = Q R of the active constraints' normals is all that needs to be kept. Violations are measured as
+//! distances of y, whatever the scale of the rows.
 //!
 //! The number of iterations is bounded. A row that is nearly a combination of active ones never joins them,
-//! so that parallel rows and rows that meet in one point do no harm. Equal programs give equal solutions.
-//! Nothing is allocated once the largest program was solved.
+//! so parallel rows and rows that meet in one point do no harm. Equal programs give equal solutions.
+//! Nothing is allocated once the largest program has been solved.
 class DualActiveSet {
  public:
   enum class Outcome {
@@ -33,7 +33,7 @@ class DualActiveSet {
   //! [n] of the last program, if OPTIMAL.
   const Eigen::VectorXd& solution() const { return solution_; }
 
-  //! Constraints taken in or dropped for the last program.
+  //! Constraints added or dropped for the last program.
   int iterations() const { return iterations_; }
 
  private:

@@ -23,7 +23,7 @@ struct ChosenFeatures {
 //!
 //! gradient(m, a) . v is the rate at which feature m's distance grows when agent a's held point moves with
 //! the velocity v. Moving all held points together moves the object rigidly, however it is held, so the
-//! gradients of all agents sum to the normal: the leader's is the rest of the others'.
+//! gradients of all agents sum to the normal: the leader's gradient is the normal minus the others.
 class Features {
  public:
   //! Starts afresh, with gradients of zero.
@@ -32,7 +32,7 @@ class Features {
   //! No features.
   void clear();
 
-  //! Gives the leader the rest of the normals.
+  //! Sets the leader's gradients to the normals minus the gradients of the others.
   void completeLeader(int leader);
 
   int size() const { return static_cast<int>(distance.size()); }

@@ -14,9 +14,9 @@ struct Formulation {
   bool anticipation;        //!< a second, softer and slower row for each feature
   bool shares;              //!< assistants share constraints instead of answering each other's velocity
   bool acceleration_limit;  //!< as a constraint
-  bool relaxation;          //!< by priority, where not all limits can hold
+  bool relaxation;          //!< by priority, if not all limits can hold
 
-  //! All of it.
+  //! The full formulation.
   static Formulation full() { return {true, true, true, true, true, true, true, true}; }
 
   //! The paper's equations 2 to 13.

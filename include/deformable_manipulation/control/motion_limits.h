@@ -3,7 +3,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Velocities [m/s] from which one may be chosen.
+//! A range of velocities [m/s].
 struct VelocityRange {
   double lower;
   double upper;
@@ -22,7 +22,7 @@ struct MotionLimits {
   //! @param acceleration [m/s^2] from the command before to the last
   VelocityRange next(double velocity, double acceleration) const;
 
-  //! The next command on the shortest way to rest.
+  //! The next command on the fastest way to rest.
   double slowed(double velocity, double acceleration) const;
 
  private:

@@ -13,11 +13,11 @@ using pbd::Vector3;
 
 //! What an assistant's controller sees of one state: A agents, C copies of the object with P points each.
 //!
-//! Copy 0 is the object itself. All in the fixed frame and of one time. A view: what it points to belongs to someone
-//! else.
+//! Copy 0 is the object itself. Everything is in the fixed frame and belongs to one time. This is a view: it does not
+//! own what it points to.
 struct ObservationView {
   double time = 0.0;      //!< [s] of the state
-  double lateness = 0.0;  //!< [s] by which commands that answer it act later than a cycle after it
+  double lateness = 0.0;  //!< [s] delay, beyond one cycle, until commands that answer it act
   int agents = 0;
   int copies = 0;
   int points = 0;

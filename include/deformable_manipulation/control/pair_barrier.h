@@ -9,13 +9,13 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! What keeps a pair of agents within a limit of their distance.
+//! Parameters that keep a pair of agents within a limit of their distance.
 struct PairParameters {
   Eigen::MatrixXd limits;  //!< [A x A] m, between any two agents, symmetric; the diagonal is not used
   double margin;           //!< [m] by which the rows stay within the limits
   PiecewiseLinearClassK alpha;
 
-  //! Reads the section of a barrier on pairs of so many agents.
+  //! Reads the section of a barrier on pairs, for a number of agents.
   static PairParameters read(const ParameterSection& section, int agents);
 };
 
@@ -27,13 +27,13 @@ struct PairParameters {
 //!
 //!   g . u_i >= g . v_j - alpha(h).
 //!
-//! Against the leader, whose velocity v_j is measured, the assistant takes the whole constraint. Between two that
-//! are commanded together both velocities are variables of one row,
+//! Against the leader, whose velocity v_j is measured, the assistant takes the whole constraint. If two assistants are
+//! commanded together, both velocities are variables of one row,
 //!
 //!   g . (u_i - u_j) >= -alpha(h).
 //!
-//! Two assistants that are not share it. Each feeding back the other's last measured velocity would be a loop of gain
-//! one with a delay, so each keeps its velocity relative to the leader's within half:
+//! Otherwise two assistants share the constraint. If each fed back the other's last measured velocity, that would be a
+//! delayed loop with gain one. So each keeps its velocity relative to the leader's within half of the constraint:
 //!
 //!   g_i . (u_i - v_leader) >= -alpha(h) / 2.
 //!
@@ -41,24 +41,24 @@ struct PairParameters {
 //! moves as one with the leader is never held back. Without shares each takes the whole constraint against
 //! the other's measured velocity, as in the paper.
 //!
-//! Coincident held points have no direction; a fixed one is taken instead, along x from the agent of the
-//! lower index to the other, so that both agents take opposite ones.
+//! Coincident held points have no direction. A fixed one is used instead, along x from the agent with the
+//! lower index to the other, so that both agents use opposite directions.
 class PairBarrier : public Barrier {
  public:
   enum class Kind { MAXIMUM, MINIMUM };
 
   PairBarrier(Kind kind, const PairParameters& parameters, const Team& team);
 
-  //! What is left of the limit between two agents [m], for the held points [A]; without the margin.
+  //! The remaining distance to the limit between two agents [m], for the held points [A], without the margin.
   double value(const std::vector<Vector3>& positions, int agent, int other) const;
 
-  //! The least of an agent over all others [m].
+  //! The lowest value of an agent over all others [m].
   double value(const PresentState& state, int agent) const override;
 
   //! d value / d held point of the agent, a unit vector.
   Vector3 gradient(const std::vector<Vector3>& positions, int agent, int other) const;
 
-  //! Adds one constraint for each pair of agents of which one is commanded.
+  //! Adds one constraint for each pair of agents with a commanded one.
   void addRows(const Features& features, const PredictedState& state, BarrierRows& rows) const override;
 
  private:

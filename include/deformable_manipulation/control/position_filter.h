@@ -7,18 +7,18 @@ namespace control {
 
 //! Positions and velocities from noisy, delayed measurements; predicts positions at constant velocity.
 //!
-//! The line that fits all measurements best, in the sense of least squares with weights that fall by 1 / e per time
-//! constant of age: a filter of second order with fading memory (Morrison, Introduction to sequential smoothing and
+//! It fits a line to all measurements by least squares, with weights that fall by 1 / e per time constant of age: a
+//! filter of second order with fading memory (Morrison, Introduction to sequential smoothing and
 //! prediction, 1969). With theta = exp(-dt / tau), each measurement corrects the prediction by its residual r:
 //!
 //!   position += (1 - theta^2) r,   velocity += (1 - theta)^2 r / dt.
 //!
-//! The first measurements weigh alike, so that a motion that is under way is followed at once: with n of them before,
+//! The first measurements have equal weights, so that a motion under way is followed at once: after n measurements,
 //! the gains are at least 2 (2 n + 1) / ((n + 1) (n + 2)) and 6 / ((n + 1) (n + 2)).
 //!
 //! Motion of constant velocity is followed without lag; an acceleration a leaves the position a tau^2 behind and the
 //! velocity 2 a tau. White noise s in the measurements leaves 1.1 s (dt / tau)^(1/2) in the position, and in the
-//! velocity s / (2 dt) (dt / tau)^(3/2). A time constant of zero passes the measurements and their differences on.
+//! velocity s / (2 dt) (dt / tau)^(3/2). A time constant of zero passes on the measurements and their differences.
 //!
 //! One filter serves all coordinates that share their stamps.
 class PositionFilter {

@@ -9,10 +9,10 @@ namespace control {
 
 using pbd::Vector3;
 
-//! Motion of the A agents, as predicted for the time at which the command acts.
+//! Motion of the A agents, predicted for the time at which the command acts.
 //!
 //! The command computed from state k acts from state k + 1 on, or later if the answer is late. Until then, for `delay`
-//! seconds, the own agent moves with its previous command and the others with their measured velocities.
+//! seconds, the commanded agent moves with its previous command and the others with their measured velocities.
 struct PredictedState {
   std::vector<Vector3> positions;   //!< [A] m, held points when the command begins to act
   std::vector<Vector3> velocities;  //!< [A] m/s, from state k to then; expected to last

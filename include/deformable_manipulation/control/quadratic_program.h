@@ -11,8 +11,7 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 //! min 1/2 x' diag(hessian) x + linear' x  subject to  constraints x >= limits.
 //!
-//! Of the matrices and vectors, the first `rows` rows of constraints and limits count: memory is kept from
-//! one program to the next.
+//! Only the first `rows` rows of constraints and limits count. The memory is reused from one program to the next.
 struct QuadraticProgram {
   Eigen::VectorXd hessian;  //!< [n] diagonal, positive
   Eigen::VectorXd linear;   //!< [n]
@@ -22,7 +21,7 @@ struct QuadraticProgram {
 
   int variables() const { return static_cast<int>(hessian.size()); }
 
-  //! No rows yet, and room for so many.
+  //! Makes a program without rows, with room for some.
   void clear(int most) {
     if (limits.size() < most || constraints.cols() != variables()) {
       limits.resize(std::max<Eigen::Index>(most, limits.size()));
@@ -31,14 +30,14 @@ struct QuadraticProgram {
     rows = 0;
   }
 
-  //! A row of zeros at the end, to be filled in.
+  //! Adds a row of zeros at the end, to be filled in.
   auto addRow(double limit) {
     limits[rows] = limit;
     return constraints.row(rows++).setZero();
   }
 };
 
-//! Finds the solution x [n] of a program; false where it finds none.
+//! Finds the solution x [n] of a program; false if it finds none.
 using QpSolver = std::function<bool(const QuadraticProgram&, Eigen::VectorXd& x)>;
 
 }  // namespace control

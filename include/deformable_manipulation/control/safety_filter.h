@@ -14,10 +14,10 @@ namespace control {
 //! [m/s] by which a constraint may be missed before it counts as relaxed.
 constexpr double VELOCITY_TOLERANCE = 1e-6;
 
-//! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
+//! Quadratic cost of the anticipation's slack, in multiples of the cost of deviating from the nominal velocity.
 constexpr double ANTICIPATION_WEIGHT = 10.0;
 
-//! Which of the L limits yields to which, by their kinds 0 to L - 1: the first is the last to yield.
+//! The order in which the L limits yield, by their kinds 0 to L - 1: the first one yields last.
 using Priority = std::vector<int>;
 
 //! Result of the safety filter.
@@ -37,46 +37,45 @@ struct Filtered {
 //!   min 1/2 |diag(weights) (u - nominal)|^2 + sum_t (c_t s_t + r_t s_t^2 / 2),
 //!   rows of kind t: g . u >= min(b, most that g . u reaches within the bounds) - s_t.
 //!
-//! For limits the linear penalty makes a slack exactly zero wherever its kind can hold; the quadratic one,
-//! r = max(weights)^2, only makes the cost positive definite. The costs c_t are apart by the same factor from one
-//! limit to the next in the order of the priority, a hundred for three limits, rather than strictly lexicographic: a
-//! strict order would spend all of a lower limit on a gain of a micrometre per second in a higher one, which a row of
-//! nearly no gradient asks for. So a limit yields to a lower one only where it would cost that one more than so many
-//! times. Their range is fixed, so that any number of limits can be told apart without harm to the solution's
-//! precision. Anticipation has the quadratic penalty alone: it pulls, the more the farther it is missed, and never
-//! stands against a limit.
+//! The linear penalty makes the slack of a limit exactly zero wherever the limit can hold. The quadratic penalty,
+//! r = max(weights)^2, only makes the cost positive definite. In the order of the priority, the costs c_t differ by the
+//! same factor from one limit to the next: a hundred for three limits. The order is not strictly lexicographic, because
+//! a strict order would give up a lower limit completely to gain a micrometre per second in a higher one, which a row
+//! with almost no gradient may ask for. So a higher limit yields to a lower one only if holding it would cost the lower
+//! one more than that factor. The range of the costs is fixed, so that any number of limits keeps the solution precise.
+//! Anticipation has only the quadratic penalty: it pulls more the farther it is missed, and never wins over a limit.
 //!
-//! Taking the minimum keeps a row that no velocity can satisfy from loosening the others of its kind; what it
-//! lacks shows in the reported slack. But of two rows of a limit that pull against each other the one that asks for
-//! more, in multiples of what the bounds allow, yields that much less: the coefficient of its s_t is less than one.
-//! Else, both out of reach, they would hold each other at the velocity in the middle of the bounds, for ever.
+//! The minimum keeps a row that no velocity can satisfy from loosening the other rows of its kind; the reported slack
+//! includes what that row lacks. If two rows of a limit pull against each other, the one that asks for more, in
+//! multiples of what the bounds allow, yields that much less: the coefficient of its s_t is less than one. Otherwise
+//! two rows out of reach would hold each other in the middle of the bounds forever.
 //!
-//! As one program with one solution, continuous in all that is given, it does not jump where limits begin to
-//! contradict one another.
+//! One program with one solution that is continuous in all its inputs does not jump when limits begin to contradict
+//! each other.
 class SafetyFilter {
  public:
   //! @param weights gamma [n], positive
   //! @param priority of the limits
   //! @param relaxation false: rows that cannot all hold give FAILED (the paper)
-  //! @throw std::invalid_argument if a weight is not positive and finite, or the priority is no order of the limits
+  //! @throw std::invalid_argument if a weight is not positive and finite, or the priority is not an order of the limits
   SafetyFilter(const Eigen::VectorXd& weights, const Priority& priority, bool relaxation);
 
   SafetyFilter(const SafetyFilter&) = delete;
   SafetyFilter& operator=(const SafetyFilter&) = delete;
 
-  //! Other weights, as many. @throw std::invalid_argument if one is not positive and finite
+  //! Sets as many other weights. @throw std::invalid_argument if one is not positive and finite
   void setWeights(const Eigen::VectorXd& weights);
 
-  //! Quadratic cost of the anticipation's slack, in multiples of that of departing from the nominal velocity.
+  //! Quadratic cost of the anticipation's slack, in multiples of the cost of deviating from the nominal velocity.
   void setAnticipation(double weight) { anticipation_ = weight; }
 
-  //! Another solver than DualActiveSet.
+  //! Uses another solver instead of DualActiveSet.
   void setSolver(QpSolver solver) { solver_ = std::move(solver); }
 
   //! @param nominal, lower, upper [n] m/s
   //! @param rows of n components, of the kinds 0 to L
-  //! @return valid until the next call; FAILED with zero velocity if a number is not finite, the bounds are
-  //! crossed, or the solver gives no valid solution
+  //! @return valid until the next call; FAILED with zero velocity if a number is not finite, a lower
+  //! bound exceeds its upper one, or the solver gives no valid solution
   const Filtered& filter(const Eigen::VectorXd& nominal, const ConstraintRows& rows, const Eigen::VectorXd& lower,
                          const Eigen::VectorXd& upper);
 

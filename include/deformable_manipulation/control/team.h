@@ -8,7 +8,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Who is commanded by one program, among whom, and how: what every barrier has to know.
+//! The agents, which of them one program commands, and their bounds: what every barrier needs to know.
 struct Team {
   int agents;                   //!< number A of all agents
   int leader;                   //!< index of the leader
@@ -17,7 +17,7 @@ struct Team {
   double max_velocity;          //!< [m/s] bound on every component
   Formulation formulation;
 
-  //! Where the velocity of an agent is among the variables, in threes; -1: it is none.
+  //! Position of an agent's velocity among the variables, in threes; -1: it is not commanded.
   int columnOf(int agent) const {
     const auto found = std::find(commanded.begin(), commanded.end(), agent);
     return found == commanded.end() ? -1 : static_cast<int>(found - commanded.begin());

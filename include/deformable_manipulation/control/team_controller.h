@@ -21,25 +21,25 @@ namespace control {
 
 //! Lets assistants follow the leader at fixed relative positions, as far as the barriers allow.
 //!
-//! One program over the velocities of all M assistants that it commands. With M = 1, a controller for each assistant
-//! on its own observations alone, this is decentralised control: constraints between assistants are shared. With all
-//! assistants commanded together it is centralised: each constraint is whole, and met by whoever meets it at the least
-//! departure from the nominal velocities. What the limits are is told by a list of barriers.
+//! One program decides the velocities of all M assistants that it commands. With M = 1, one controller per assistant on
+//! its own observations only, control is decentralised: assistants share the constraints between them. If one program
+//! commands all assistants, control is centralised: each constraint is whole, and is met with the smallest deviation
+//! from the nominal velocities. The limits are a list of barriers.
 //!
 //! The command computed from state k acts from state k + 1 to k + 2. So everything is predicted for state
-//! k + 1 to first order (for a later one where the observation says that the answer is late): the own held points move
-//! with the commands decided before, the others with their measured velocities. The nominal law is
+//! k + 1 to first order, or for a later state if the observation says that the answer is late: the commanded held
+//! points move with the previous commands, the others with their measured velocities. The nominal law is
 //!
 //!   u_nom = k_p e + v_leader,  e = x_leader + reference - x  at state k + 1,
 //!
-//! whose error decays by (1 - k_p / rate) per cycle whatever the delay, and is zero behind a leader of
-//! constant velocity.
+//! Its error decays by (1 - k_p / rate) per cycle, whatever the delay, and is zero behind a leader of constant
+//! velocity.
 class TeamController {
  public:
   //! @throw std::invalid_argument if a parameter cannot be used
   explicit TeamController(const ControllerParameters& parameters);
 
-  //! Another solver of the safety filter's program.
+  //! Uses another solver for the safety filter's program.
   void setSolver(QpSolver solver) { filter_.setSolver(std::move(solver)); }
 
   //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
@@ -51,26 +51,26 @@ class TeamController {
   //! Number M of assistants that it commands; they are numbered in the order of the parameters.
   int size() const { return static_cast<int>(members_.size()); }
 
-  //! False brings this assistant to rest, within its limits, and keeps it there; the others reckon with that.
+  //! False brings this assistant to rest, within its limits, and keeps it there; the others take that into account.
   void setEnabled(int member, bool enabled) { members_[member].enabled = enabled; }
   bool isEnabled(int member) const { return members_[member].enabled; }
 
-  //! The least h of each barrier for an assistant in any state, without margins, in the order of the parameters.
+  //! The lowest h of each barrier for an assistant in any state, without margins, in the order of the parameters.
   std::vector<double> margins(int member, const PresentState& state) const;
 
-  //! Goes on with other gains, limits and margins of the same agents; formulation, priority and solver stay as they
-  //! were made. @throw std::invalid_argument if they cannot be used; nothing changes then
+  //! Continues with other gains, limits and margins of the same agents; formulation, priority and solver stay.
+  //! @throw std::invalid_argument if they cannot be used; nothing changes then
   void setParameters(const ControllerParameters& parameters);
 
-  //! Back to the start: forgets all states and takes the first references again.
+  //! Goes back to the start: forgets all states and uses the first references again.
   void reset();
 
   //! Lets an assistant follow the leader at its present relative position from now on. The observation must have
   //! no fault.
   void takeReference(int member, const ObservationView& observation);
 
-  //! Whether a state is not newer than the last one, which then is to get the same answer again. One older by
-  //! more than the timeout means that time was set back: all states are forgotten.
+  //! Whether a state is not newer than the last one; it then gets the same answer again. If it is older by more than
+  //! the timeout, time was set back: all states are forgotten.
   bool isAnswered(double time);
 
   //! Decides the velocities for a state.
@@ -78,8 +78,8 @@ class TeamController {
   //! @return [M] valid until the next call
   const std::vector<Decision>& update(const ObservationView& observation);
 
-  //! An input is missing or unusable: all slow down to rest, within their limits, and stand still. Each call is a
-  //! command.
+  //! Call this if an input is missing or unusable: all assistants slow down to rest, within their limits, and stand
+  //! still. Each call is one command.
   const std::vector<Decision>& wait();
 
  private:
@@ -135,8 +135,8 @@ class TeamController {
   PredictedState predicted_;
   Features features_;
   ConstraintRows rows_;
-  double kept_ = 0.0;        // part of a departure that is kept for the next cycle
-  Eigen::VectorXd nominal_;  // [3 M] m/s, with that; of those who are disabled zero
+  double kept_ = 0.0;        // part of a deviation that is kept for the next cycle
+  Eigen::VectorXd nominal_;  // [3 M] m/s, with that; zero for disabled assistants
   Eigen::VectorXd lower_;    // [3 M] m/s, velocities that the limits of velocity and acceleration allow
   Eigen::VectorXd upper_;
 };

@@ -30,7 +30,7 @@ struct Feature {
 //! Features of C copies of an object; those of copy c are features[offsets[c]] to
 //! features[offsets[c + 1] - 1], the nearest first.
 struct Distances {
-  std::vector<double> minimum;  //!< [C] m; infinite where there is no obstacle
+  std::vector<double> minimum;  //!< [C] m; infinite if there is no obstacle
   std::vector<int> offsets;     //!< [C + 1]
   std::vector<Feature> features;
 };

@@ -12,16 +12,17 @@ namespace distance {
 
 //! The surface of any number of triangles.
 //!
-//! Vertices at the same place are one. A component, the triangles connected by edges, is a solid if it is closed: each
-//! edge has two triangles, which can be wound alike. Which side is inside depends on its volume, not on how it was
-//! wound; only a component wound as seen from inside that lies within another solid is a cavity of that. A point's
-//! signed distance is its distance to the surface, negative inside a solid. Solids count one by one: where two overlap
-//! the depth is that in one of them, not in their union. A solid that crosses itself has the sign of the piece of its
-//! surface that is nearest. Components that are not closed have distances without a sign, 0 where the object crosses.
+//! Vertices at the same place are one. A component is a set of triangles connected by edges. It is a solid if it is
+//! closed: each edge has two triangles, which can be wound consistently. Its volume decides which side is inside, not
+//! its winding. The only exception is a component wound inwards within another solid, which is a cavity of that. A
+//! point's signed distance is its distance to the surface, negative inside a solid. Solids are treated one by one:
+//! where two overlap, the depth is that in one of them, not in their union. A solid that crosses itself has the sign of
+//! the piece of its surface that is nearest. Components that are not closed have distances without a sign, 0 where the
+//! object crosses.
 //!
 //! Distances are exact to rounding outside. Depths inside are the greatest to within a thousandth and 1e-7 m, at most
-//! 1e-5 m; the witness found always has the distance told. Normals point from the obstacle to the object, inside from
-//! the object to the nearest point of the surface; within 1e-9 m of the surface they are its outward normal (of a
+//! 1e-5 m; the reported points always have the reported distance. Normals point from the obstacle to the object, inside
+//! from the object to the nearest point of the surface; within 1e-9 m of the surface they are its outward normal (of a
 //! surface that is not closed, that of the triangle).
 //!
 //! Features: the nearest, or deepest, point of each segment or triangle. Where corners of it are as near as that, their
@@ -32,7 +33,7 @@ class MeshObstacle : public Obstacle {
   //! @param triangles indices of vertices, of either orientation
   //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
   //! @throw std::invalid_argument All reasons: there is no triangle with an area; a vertex is not finite or
-  //!   beyond 1e6 m; a triangle refers to a vertex that does not exist; the pose is none
+  //!   beyond 1e6 m; a triangle refers to a vertex that does not exist; the pose is invalid
   MeshObstacle(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& triangles,
                const Vector3& translation = Vector3::Zero(),
                const pbd::Quaternion& rotation = pbd::Quaternion::Identity());

@@ -7,12 +7,12 @@
 namespace deformable_manipulation {
 namespace distance {
 
-//! Something to keep off. Distances are from the object's centre line or mid-surface; a signed
-//! distance is the least over the object's points of their own signed distance to the obstacle's
-//! surface, negative inside.
+//! An obstacle. Distances are from the object's centre line or mid-surface; the signed
+//! distance is the lowest signed distance of the object's points to the obstacle's surface, negative
+//! inside.
 //!
-//! An obstacle may remember what was nearest to speed up the next call; results depend on the
-//! arguments alone. One instance must not be used by several threads at a time.
+//! An obstacle may remember what was nearest to speed up the next call, but results depend only on
+//! the arguments. One instance must not be used by several threads at a time.
 class Obstacle {
  public:
   virtual ~Obstacle() = default;

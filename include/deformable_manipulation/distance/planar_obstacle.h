@@ -26,7 +26,7 @@ class PlanarObstacle : public Obstacle {
   //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
   //! @throw std::invalid_argument All reasons: a coordinate is not finite or beyond 1e6 m; there are fewer than
   //!   three distinct points or they bound no area; the polygon crosses itself; the plane is unknown; the pose is
-  //!   none
+  //!   invalid
   PlanarObstacle(const std::vector<std::array<double, 2>>& points, const std::string& plane,
                  const Vector3& translation = Vector3::Zero(),
                  const pbd::Quaternion& rotation = pbd::Quaternion::Identity());

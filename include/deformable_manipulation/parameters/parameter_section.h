@@ -13,11 +13,11 @@ namespace deformable_manipulation {
 
 //! A section of the resolved scenario, read key by key.
 //!
-//! The scenario has been checked before, and its defaults are filled in: ranges, units and defaults of all keys are
-//! declared once, in Python. What is missing or of another type all the same is noted in the check, and something of
-//! the right type is returned, so that one pass finds every mistake.
+//! Python has checked the scenario and filled in its defaults: ranges, units and defaults of all keys are declared
+//! there, once. If a key is missing or has a wrong type nevertheless, the check notes it and a value of the right type
+//! is returned, so that one pass finds every mistake.
 //!
-//! It looks at the value and the check; both must outlive it.
+//! It refers to the value and the check; both must outlive it.
 class ParameterSection {
  public:
   ParameterSection(const ParameterValue& value, std::string path, pbd::ParameterCheck& check);
@@ -46,7 +46,7 @@ class ParameterSection {
   //! A list of rows of equal length.
   Eigen::MatrixXd matrix(const std::string& key) const;
 
-  //! The one of the choices whose name stands at the key.
+  //! The choice that the key names.
   template <typename Value>
   Value choice(const std::string& key, const std::vector<std::pair<std::string, Value>>& choices) const {
     const std::string given = text(key);
@@ -85,7 +85,7 @@ class ParameterSection {
     return result;
   }
 
-  //! The items of a list; none, and a problem noted, where it is no list.
+  //! The items of a list. If it is not a list: no items, and the problem is noted.
   const ParameterValue::List& items(const std::string& key, const std::string& allowed) const;
 
   void refuse(const ParameterValue& value, const std::string& path, const std::string& allowed) const;

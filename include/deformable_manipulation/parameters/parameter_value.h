@@ -8,7 +8,7 @@
 
 namespace deformable_manipulation {
 
-//! A value of the resolved scenario, whoever holds it: the parameter server or Python.
+//! A value of the resolved scenario, from the parameter server or from Python.
 class ParameterValue {
  public:
   using List = std::vector<ParameterValue>;
@@ -29,7 +29,7 @@ class ParameterValue {
     return std::get_if<Content>(&content_);
   }
 
-  //! The value of a key; a missing value where there is none.
+  //! The value of a key; a missing value if there is none.
   const ParameterValue& operator[](const std::string& key) const;
 
   //! What it is, in words, for messages.

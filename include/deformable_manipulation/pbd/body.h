@@ -25,11 +25,11 @@ struct PerturbedCopy {
   int id;                //!< never used again after the copy is removed
   int particle;          //!< held particle that is displaced
   Vector3 requested;     //!< [m] displacement asked for
-  Vector3 target;        //!< [m] where it goes: the request, shortened or turned round to stay in reach
+  Vector3 target;        //!< [m] where it goes: the request, shortened or reversed to stay in reach
   Vector3 present;       //!< [m] where it is
   double resting = 0.0;  //!< [s] since it arrived at its target
 
-  //! True when the copy has arrived and calmed down: only then differences to copy 0 mean anything.
+  //! Whether the copy has arrived and calmed down. Differences to copy 0 mean nothing before.
   bool ready() const;
 };
 
@@ -52,11 +52,11 @@ class Body {
   //! An independent body in the same state.
   virtual std::unique_ptr<Body> clone() const = 0;
 
-  //! The word that says its kind in the scenario, see bodyMakers().
+  //! The word for its kind in the scenario, see bodyMakers().
   virtual const char* kind() const = 0;
 
-  //! The size up to which stretch() is that of an object in use: beyond it the constraints are not solved, or the
-  //! object is pulled apart.
+  //! The largest stretch() of an object in normal use. Beyond it the constraints are not solved, or the object is
+  //! pulled apart.
   virtual double largestStretch() const = 0;
 
   //! Particles that can be held.
@@ -74,8 +74,8 @@ class Body {
   //! Relative error of the length (or size) of the object itself against the unstretched one.
   virtual double stretch() const = 0;
 
-  //! Where substeps of this length [s] cannot hold the material's stiffness: what it comes to, and what helps, as
-  //! sentences; otherwise empty.
+  //! If substeps of this length [s] cannot keep the material's stiffness: sentences about the resulting stiffness and
+  //! about what helps. Otherwise empty.
   virtual std::string softness(double time_step, int substeps) const;
 
   //! Changes the material while running; shape and motion stay.
@@ -156,15 +156,15 @@ class Body {
   //! @throw NonFiniteState if the state is no longer finite.
   void step(double time_step, int substeps);
 
-  //! Advances with the held points at rest until nothing moves any more. Neither very low nor very high damping delays
-  //! it or ends it early: it settles with one that comes to rest soon, which does not change the shape at rest.
+  //! Advances with the held points at rest until nothing moves any more. The damping of the object does not matter: it
+  //! settles with a damping that brings it to rest soon, which does not change the shape at rest.
   //! @return whether it settled within the time limit
   //! @throw ParameterError as for step(), or if tolerance or time limit are not finite or negative
   //! @throw NonFiniteState
   bool settle(const SettleOptions& options);
 
-  //! The same, and then pushes the object off shapes in which it only stands in balance. Where it comes back when it is
-  //! pushed a little, its state is that of settle().
+  //! Does the same, then pushes the object out of unstable balances. If the object comes back after a small push, its
+  //! state is that of settle().
   //! @throw ParameterError as settle()
   //! @throw NonFiniteState
   Rest settleStably(const SettleOptions& options);
@@ -213,10 +213,10 @@ class Body {
   //! First particle of a copy whose state is not finite, or -1.
   virtual int firstNonFinite(int copy) const = 0;
 
-  //! [m/s] of the fastest particle of all copies; turning counts by what it moves within a particle's size.
+  //! [m/s] of the fastest particle of all copies, including how fast turning moves points of a particle.
   virtual double highestSpeed() const = 0;
 
-  //! Takes all velocities away.
+  //! Sets all velocities to zero.
   virtual void stop() = 0;
 
   //! Moves a particle of the object itself.

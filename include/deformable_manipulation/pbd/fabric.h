@@ -25,12 +25,12 @@ class Fabric final : public Body {
 
   const FabricParameters& parameters() const { return parameters_; }
 
-  //! [m/N] The stretching compliance that the fabric comes to with substeps of this length [s]: that of its material,
-  //! or more where its springs are too stiff for the mesh, its mass and the substep.
+  //! [m/N] The stretching compliance that the fabric has with substeps of this length [s]: that of its material, or
+  //! more if its springs are too stiff for the mesh, its mass and the substep.
   double effectiveCompliance(double substep) const;
 
-  //! The least number of substeps of a time step [s], `least` to `most`, with which that is the one of the material;
-  //! `most` where none is.
+  //! The lowest number of substeps of a time step [s], from `least` to `most`, that keeps the compliance of the
+  //! material; `most` if none does.
   int substepsForStiffness(double time_step, int least, int most) const;
   std::string softness(double time_step, int substeps) const override;
 
@@ -52,9 +52,9 @@ class Fabric final : public Body {
   double stretch() const override;
   Wrench wrench(int particle) const override;
 
-  //! At the present shape, which is near an equilibrium where it is not moving fast. NOT_CONVERGED before the first
-  //! step after a change of holds or material. While the fabric snaps to another shape the last response counts on for
-  //! up to 300 calls; then it is UNSTABLE.
+  //! Computed at the present shape, which is near an equilibrium unless it moves fast. NOT_CONVERGED before the first
+  //! step after a change of holds or material. While the fabric snaps to another shape, the last response stays in use
+  //! for up to 300 calls; then it is UNSTABLE.
   ResponseStatus response(double* to) override;
   void layOut() override;
   void points(double* to) const override;

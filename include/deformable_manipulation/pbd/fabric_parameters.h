@@ -13,11 +13,11 @@ namespace pbd {
 //! Vertices of a triangle.
 using Triangle = std::array<int, 3>;
 
-//! A fabric: a triangle mesh, of any resolution, with mass, membrane and bending stiffness. Ranges,
-//! defaults and meanings of the keys are declared in Python, see docs/parameters.md; here are only their values.
+//! A fabric: a triangle mesh, of any resolution, with mass, membrane and bending stiffness. Only the values are here;
+//! ranges, defaults and meanings of the keys are declared in Python, see docs/parameters.md.
 struct FabricParameters {
   std::vector<Vector3> vertices;    //!< [m] unstretched
-  std::vector<Triangle> triangles;  //!< one connected surface; which way round they go does not matter
+  std::vector<Triangle> triangles;  //!< one connected surface; their winding does not matter
   double density;                   //!< [kg/m^2]
   double thickness;                 //!< [m] for distances only
   double stretching_compliance;     //!< [m/N] 1 / (E t), inverse membrane stiffness; 0: inextensible
@@ -27,7 +27,7 @@ struct FabricParameters {
   Vector3 gravity;                  //!< [m/s^2]
   Pose pose;                        //!< undeformed, vertex v lies at position + orientation * v
 
-  //! Reads the sections `object` and `simulation`; `threads` is none of their keys.
+  //! Reads the sections `object` and `simulation`; `threads` is not one of their keys.
   static FabricParameters read(const ParameterSection& object, const ParameterSection& simulation);
 
   //! Notes every parameter that is out of range and everything that is wrong with the mesh.

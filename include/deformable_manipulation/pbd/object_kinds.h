@@ -17,13 +17,13 @@ struct BodyMaker {
   std::function<std::unique_ptr<Body>(const ParameterSection& object, const ParameterSection& simulation)> make;
 };
 
-//! How to make an object of each kind, by the word that stands at its `type`.
+//! The functions that make an object of each kind, by its `type`.
 const std::map<std::string, BodyMaker>& bodyMakers();
 
-//! Notes in the section's check what is missing or of another type for the kind that it says.
+//! Notes in the section's check what is missing or has a wrong type for the section's kind.
 void noteMistakes(const ParameterSection& object, const ParameterSection& simulation);
 
-//! Makes an object of the kind that its section says.
+//! Makes an object of its section's kind.
 //! @throw ParameterError with every key that is missing, of another type or out of range
 std::unique_ptr<Body> makeBody(const ParameterSection& object, const ParameterSection& simulation);
 

@@ -10,11 +10,11 @@ enum class ResponseStatus {
   NOT_HELD,       //!< nothing holds the object
   OUT_OF_REACH,   //!< two holds are farther apart than the object reaches between them
   NOT_CONVERGED,  //!< no equilibrium was found near the present shape
-  UNSTABLE,       //!< the equilibrium found is none that the object would stay in, or can swing freely
+  UNSTABLE,       //!< the object would not stay in the equilibrium found, or can swing freely
   OTHER_SHAPE     //!< the equilibrium found is far from the present shape: the object moves towards another
 };
 
-//! The status in words, as a clause.
+//! A clause that says the status in words.
 const char* describe(ResponseStatus status);
 
 }  // namespace pbd

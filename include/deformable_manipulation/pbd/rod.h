@@ -47,6 +47,9 @@ class Rod final : public Body {
   void velocities(int copy, double* to) const override;
   bool orientations(int copy, double* to) const override;
 
+  //! [rad] Of the N - 1 joints of a copy, up to a turn either way.
+  void twists(int copy, double* to) const;
+
  protected:
   void holdsChanged() override;
   void resizeCopies() override;

@@ -18,9 +18,9 @@ struct EquilibriumOptions {
 //! The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with
 //! respect to each held point by implicit differentiation (docs/mathematics.md).
 //!
-//! It is the equilibrium of the very rigid segments and joints that the simulation advances, so a
-//! rod at rest is in it. Each search starts from the last equilibrium found, the first one, and one after
-//! a failure, from the rod's present shape.
+//! It is the equilibrium of the same rigid segments and joints that the simulation advances, so a rod at rest is in it.
+//! Each search starts from the last equilibrium that was found. The first search, and a search after a failure, start
+//! from the rod's present shape.
 class RodEquilibrium {
  public:
   RodEquilibrium();

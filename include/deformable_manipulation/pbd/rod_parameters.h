@@ -19,8 +19,8 @@ enum class RodSolver {
   DIRECT         //!< the whole chain at once, block tridiagonal
 };
 
-//! A straight rod of circular cross-section. Ranges, defaults and meanings of the keys are declared in Python, see
-//! docs/parameters.md; here are only their values.
+//! A straight rod of circular cross-section. Only the values are here; ranges, defaults and meanings of the keys are
+//! declared in Python, see docs/parameters.md.
 struct RodParameters {
   double length;           //!< [m]
   double radius;           //!< [m]
@@ -35,7 +35,7 @@ struct RodParameters {
   Vector3 gravity;  //!< [m/s^2]
   Pose pose;        //!< undeformed rod: first end at the position, along the pose's x axis
 
-  //! Reads the sections `object` and `simulation`; `threads` is none of their keys.
+  //! Reads the sections `object` and `simulation`; `threads` is not one of their keys.
   static RodParameters read(const ParameterSection& object, const ParameterSection& simulation);
 
   //! Notes every parameter that is out of range.

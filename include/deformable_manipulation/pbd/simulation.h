@@ -37,8 +37,8 @@ struct Clock {
 
 //! A deformable object carried by velocity-controlled agents, with its perturbed copies.
 //!
-//! It starts at rest between the agents, in a shape that it keeps where it finds one (see rest()). A command set
-//! between two advances acts in the next one and holds until it is replaced.
+//! The object starts at rest between the agents, in a stable shape if it finds one (see rest()). A command that is set
+//! between two advances acts in the next one, until it is replaced.
 class Simulation {
  public:
   //! Settles the object between the agents' starts.
@@ -58,7 +58,7 @@ class Simulation {
   //! Advances by a cycle. @throw NonFiniteState
   void advance();
 
-  //! Back to the settled start; raises resetCount().
+  //! Goes back to the settled start; raises resetCount().
   void reset();
 
   //! Adds a copy while running; it comes and goes with the agent's hold. @return its id
@@ -69,7 +69,7 @@ class Simulation {
   //! Removes copies by their ids. @throw std::invalid_argument if there is no such copy.
   void removePerturbations(const std::vector<int>& ids);
 
-  //! Replaces all copies, now and for resets to come, which settle the object anew.
+  //! Replaces all copies, now and for later resets, which settle the object again.
   //! @throw std::out_of_range as Body::addCopy(); nothing changes then.
   //! @throw std::invalid_argument as Body::addCopy(); nothing changes then.
   void setPerturbations(const std::vector<Perturbation>& perturbations);
@@ -77,7 +77,7 @@ class Simulation {
   //! Removes the copies that displace an agent.
   void clearPerturbations(int agent);
 
-  //! Lets go of the particle that an agent holds; the agent moves on by itself.
+  //! Releases the particle that an agent holds; the agent moves on by itself.
   //! @throw std::out_of_range if there is no such agent
   //! @throw std::logic_error if it holds none
   void release(int agent);
@@ -91,7 +91,7 @@ class Simulation {
   //! [m] An agent can grip a particle up to this far from it.
   static constexpr double kGripReach = 0.1;
 
-  //! Changes material parameters now and for resets to come, which settle the object anew.
+  //! Changes material parameters now and for later resets, which settle the object again.
   //! @throw ParameterError as Body::setMaterial(); nothing changes then.
   void setMaterial(const std::vector<MaterialParameter>& parameters);
 

@@ -20,7 +20,7 @@ class Effort:
     def __post_init__(self):
         if self.repetitions < 1 or not 0.0 < self.least_time < math.inf:
             raise ValueError(
-                f"repetitions {self.repetitions}, least_time {self.least_time}: allowed are at "
+                f"repetitions {self.repetitions}, least_time {self.least_time}: there must be at "
                 "least one repetition and a positive time [s]"
             )
 
@@ -51,7 +51,7 @@ class Timing:
             ValueError: the fraction is not within 0 and 1.
         """
         if not 0.0 <= fraction <= 1.0:
-            raise ValueError(f"fraction: {fraction}, allowed are numbers from 0 to 1")
+            raise ValueError(f"fraction: {fraction} must be from 0 to 1")
         ordered = sorted(self.seconds)
         place = fraction * (len(ordered) - 1)
         below = int(place)

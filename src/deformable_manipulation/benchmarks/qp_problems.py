@@ -70,7 +70,7 @@ class Problem:
 def make_problems(kind: str, rows: int, count: int) -> List[Problem]:
     """A number of problems with so many rows, 3 at least; raises ValueError for fewer."""
     if rows < 3:
-        raise ValueError(f"rows: {rows}, allowed are 3 or more")
+        raise ValueError(f"rows: {rows} must be 3 or more")
     generator = np.random.default_rng([SEED, rows])
     return [_problem(kind, rows, generator) for _ in range(count)]
 

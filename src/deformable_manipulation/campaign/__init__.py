@@ -1,1 +1,1 @@
-"""Campaigns: many random runs of a scenario, and what came of them."""
+"""Campaigns: many random runs of a scenario, and their outcomes."""

@@ -1,4 +1,4 @@
-"""What came of one run, in the numbers that a campaign counts."""
+"""The outcome of one run, in the numbers that a campaign counts."""
 
 import dataclasses
 from dataclasses import dataclass

@@ -8,19 +8,21 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import SymmetricalLogLocator
 
 from deformable_manipulation.campaign.outcome import RunOutcome
-from deformable_manipulation.plots.style import BLUE, COLUMN_WIDTH, STYLE, VERMILLION
+from deformable_manipulation.geometry.lengths import millimetres
+from deformable_manipulation.plots.style import BLUE, COLUMN_WIDTH, STYLE, VERMILLION, legend_above
 
 _PANELS = (
-    ("clearance", "lowest distance\nminus offset [mm]"),
+    ("clearance", "lowest distance\nminus limit [mm]"),
     ("oscillation", "oscillation,\nRMS [mm]"),
     ("final_error", "error at\nthe end [mm]"),
 )
 _HEIGHT = 3.4  # in
 _LINEAR = 10.0  # mm; beyond it an axis is logarithmic
+_LEAST_RANGE = 1.0  # mm; a smaller one would show rounding errors as if they mattered
 
 
 def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> Figure:
-    """Empirical distributions over the runs; what is beyond a limit is drawn in another colour.
+    """Empirical distributions over the runs; a dashed line is at the limit of the distance.
 
     Args:
         offset: distance to keep [m].
@@ -34,17 +36,22 @@ def plot_campaign(outcomes: Sequence[RunOutcome], offset: float, name: str) -> F
         figure = Figure(figsize=(COLUMN_WIDTH, _HEIGHT), layout="constrained")
         axes = figure.subplots(len(_PANELS), 1)
         for axis, (key, label) in zip(axes, _PANELS):
-            millimetres = np.sort(1e3 * values[key])
-            share = (np.arange(len(millimetres)) + 1.0) / max(len(millimetres), 1)
-            axis.step(millimetres, share, where="post", color=BLUE)
+            lengths = np.sort(1e3 * values[key])
+            share = (np.arange(len(lengths)) + 1.0) / max(len(lengths), 1)
+            axis.step(lengths, share, where="post", color=BLUE)
             axis.set_xlabel(label.replace("\n", " "))
             axis.set_ylabel("share of runs")
             axis.set_ylim(0.0, 1.02)
-            if np.abs(millimetres).max(initial=0.0) > _LINEAR:
+            if np.abs(lengths).max(initial=0.0) > _LINEAR:
                 axis.set_xscale("symlog", linthresh=_LINEAR)
                 axis.xaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=_LINEAR))
+                axis.xaxis.set_major_formatter("{x:g}")
             axis.margins(x=0.05)
-        axes[0].axvline(0.0, color=VERMILLION, linestyle="--", linewidth=0.8)
+        limit = f"limit {millimetres(offset)}"
+        axes[0].axvline(0.0, color=VERMILLION, linestyle="--", linewidth=0.8, label=limit)
+        legend_above(axes[0], *axes[0].get_legend_handles_labels())
+        for axis in axes[1:]:
+            axis.set_xlim(-0.05 * _LEAST_RANGE, max(axis.get_xlim()[1], _LEAST_RANGE))
         figure.suptitle(f"{name}: {len(outcomes)} runs")
     return figure
 

@@ -75,7 +75,7 @@ def describe(summary: Dict[str, Any]) -> str:
     ):
         lines.append(
             f"{text:22}median {_millimetres(summary[key]['median'])}, "
-            f"most {_millimetres(summary[key]['most'])}"
+            f"largest {_millimetres(summary[key]['most'])}"
         )
     return "\n".join(lines)
 

@@ -20,7 +20,7 @@ class Campaign:
     safety: bool = True
 
     def run(self, index: int) -> RunOutcome:
-        """Do one run; what breaks the simulation down is told in the outcome, not raised."""
+        """Do one run. If the simulation breaks down, the outcome says so; nothing is raised."""
         try:
             scenario = vary(self.scenario, self.ranges, self.seed, index)
         except NoVariation as error:

@@ -18,7 +18,7 @@ _SIZES = (0.7, 1.3)  # of a mesh, in multiples of its own
 @singledispatch
 def random_obstacle(obstacle, random: np.random.Generator):
     """An obstacle of the same kind and of about the same size, in about the same place."""
-    raise TypeError(f"no random obstacles of the kind of {type(obstacle).__name__}")
+    raise TypeError(f"no random obstacles can be made from {type(obstacle).__name__}")
 
 
 @random_obstacle.register

@@ -79,8 +79,8 @@ def _tell(scenario: Scenario, given: str) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="check_scenario",
-        description="Check a scenario file. Report every mistake in it at once; or else what it "
-        "comes to at its start, and what in it is rarely meant.",
+        description="Check a scenario file. List all its mistakes at once. If there are none, "
+        "describe the scenario at its start, and warn of values that are probably not intended.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

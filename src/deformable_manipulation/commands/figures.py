@@ -59,15 +59,18 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser = command_parser(NAME, f"{DESCRIPTION}\n\ntables:\n{blocks}", EPILOG)
     parser.add_argument("names", metavar="NAME", nargs="*", help="a table; see the list above")
     parser.add_argument(
-        "--check", action="store_true", help="list stale tables (without NAME: of all)"
+        "--check", action="store_true", help="list outdated tables (all of them without NAME)"
     )
     parser.add_argument(
         "--accept",
         metavar="COMMIT",
-        help="take the tables as they stand in the pages; they were measured at this commit",
+        help="keep the tables as they are and record that they were measured at this commit",
     )
     parser.add_argument(
-        "--machine", metavar="TEXT", default=machine_name(), help="where, with --accept"
+        "--machine",
+        metavar="TEXT",
+        default=machine_name(),
+        help="with --accept: what they were measured on",
     )
     parser.add_argument(
         "--checkout", metavar="DIR", type=Path, default=checkout(), help="default: %(default)s"

@@ -34,7 +34,7 @@ def run_command(name: str, arguments: Sequence[str]) -> int:
         except ModuleNotFoundError as error:
             if (error.name or "deformable_manipulation").startswith("deformable_manipulation"):
                 raise  # a bug
-            return fail(name, f"the Python module '{error.name}' is needed and not installed")
+            return fail(name, f"the Python module '{error.name}' is needed but not installed")
         except OSError as error:
             _discard_output()
             if error.filename is not None:  # a file of the package, or a bug

@@ -15,10 +15,11 @@ from deformable_manipulation.recording.summary import describe_recorded
 NAME = "plot_run"
 FORMATS = ("png", "pdf", "svg")
 DESCRIPTION = """Draw the data plots of a run. One figure per controller: distance and its offset
-(cut off at five times the offset), tracking error, overstretch and proximity margins, nominal and
-commanded velocity. One overview: overlaid snapshots of obstacles, object and agents, the places
-that the assistants should keep, and distance, errors and margins of all assistants. The figures
-fit one column of a paper (3.5 in, 8-point text), as PNG and as PDF."""
+(cut off at five times the offset), tracking error, margins of all other barriers in use, such as
+overstretch, proximity and workspace, nominal and commanded velocity. One overview: overlaid
+snapshots of obstacles, object and agents, the places that the assistants should keep, and distance,
+errors and overstretch margins of all assistants. The figures fit one column of a paper (3.5 in,
+8-point text), as PNG and as PDF."""
 EXAMPLES = """examples:
   plot_run output/rope_one_assistant_20250131_120000
   plot_run run.bag --output figures --format pdf
@@ -101,7 +102,7 @@ def _formats(text: str) -> List[str]:
 
 def _draw(run: RunData, times: Optional[Sequence[float]], show: bool) -> Dict[str, object]:
     """Figures by the names of their files."""
-    # Imported late: matplotlib takes longer to load than a wrong path to be told.
+    # Imported late: matplotlib loads slowly, and a wrong path is reported at once.
     from deformable_manipulation.plots.controller_plot import plot_controller
     from deformable_manipulation.plots.overview_plot import plot_overview
 

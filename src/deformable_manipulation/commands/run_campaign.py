@@ -166,7 +166,7 @@ def _speed(text):
     if value > _FASTEST:
         raise argparse.ArgumentTypeError(
             f"'{text}': must be at most {_FASTEST:g} m/s; assistants move at "
-            f"controller.max_velocity, and nobody can answer a leader that is much faster"
+            f"controller.max_velocity, and cannot follow a leader that is much faster"
         )
     return value
 
@@ -200,7 +200,7 @@ def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     default = Path("output") / f"campaign_{scenario.name}_{time.strftime('%Y%m%d_%H%M%S')}"
     folder = arguments.output or default
     if (folder / "campaign.json").exists():
-        raise FileExistsError(f"{folder} holds a campaign already; choose another --output")
+        raise FileExistsError(f"{folder} already holds a campaign; choose another --output")
     try:
         writable_folder(folder)  # now, not after hours of runs
     except OSError as error:
@@ -228,7 +228,7 @@ def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int
     finally:
         progress.close()
     if not outcomes:
-        print("run_campaign: no run had ended: nothing is kept", file=sys.stderr)
+        print("run_campaign: no run had finished, so nothing is kept", file=sys.stderr)
         return code or 1
     outcomes.sort(key=lambda outcome: outcome.index)
     summary = summarise(outcomes, arguments.tolerance)
@@ -239,8 +239,8 @@ def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int
     if len(outcomes) < arguments.runs:
         print(
             f"run_campaign: only {len(outcomes)} of {arguments.runs} runs were done. They are kept "
-            f"in {folder / 'runs.csv'} and counted in {folder / 'campaign.json'}. For all, start "
-            "again with another --output: the same seed gives the same runs",
+            f"in {folder / 'runs.csv'} and counted in {folder / 'campaign.json'}. For all "
+            "of them, start again with another --output: the same seed gives the same runs",
             file=sys.stderr,
         )
     return code or (0 if is_acceptable(summary) else UNACCEPTABLE)

@@ -39,7 +39,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return fail(NAME, str(error))
     except OSError as error:
         return fail(NAME, f"cannot write the pictures: {error}")
-    # Imported late: ROS takes longer to load than a mistake in the arguments to be told.
+    # Imported late: ROS loads slowly, and a mistake in the arguments is reported at once.
     from deformable_manipulation.system.program import ProgramError
 
     with interruptible():

@@ -51,7 +51,7 @@ def parse_arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--layout",
         choices=LAYOUTS,
         default=SEPARATE,
-        help="separate: one picture per time. overlaid: all in one picture, earlier ones paler. "
+        help="separate: one picture per time. overlaid: all in one picture, each in a color. "
         "side_by_side: all times in a row. auto: in a row for fabrics and moving obstacles, which "
         "would hide each other, otherwise overlaid (default: separate)",
     )

@@ -1,10 +1,10 @@
-"""The pictures and the video that ``rviz_snapshot`` makes, once it is known of what."""
+"""Makes the pictures and the video of ``rviz_snapshot``."""
 
 import argparse
 import sys
 from functools import partial
 from pathlib import Path
-from typing import Iterator, Optional, Sequence, Tuple
+from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from deformable_manipulation.commands.snapshot_arguments import (
 from deformable_manipulation.commands.snapshot_source import SnapshotSource
 from deformable_manipulation.pictures.picture import save_png
 from deformable_manipulation.pictures.picture_layout import (
+    INK,
     is_alike,
     labelled,
     overlaid,
@@ -26,16 +27,18 @@ from deformable_manipulation.pictures.picture_layout import (
 from deformable_manipulation.pictures.video_file import RATE, video_file
 from deformable_manipulation.ros.label_marker import NAMESPACE as LABELS
 from deformable_manipulation.ros.label_marker import time_labels
-from deformable_manipulation.ros.obstacle_markers import MOVING_OBSTACLES
+from deformable_manipulation.ros.obstacle_markers import DISTANCE_LABELS, MOVING_OBSTACLES
 from deformable_manipulation.ros.rviz_view import without
 
 VIDEO_LENGTH = 20.0  # s, unless a speed is given
-_ROW_LETTERS, _VIDEO_LETTERS = 1 / 12, 1 / 25  # of the pictures' height
+_TIME_LETTERS, _ROW_LETTERS, _LETTERS = 1 / 12, 1 / 20, 1 / 28  # of the pictures' height
+_DISTANCE_COLOR = (191, 0, 140)  # as the line is drawn
 
-# Not shown where several times are in one picture: letters that would be too small to be read, and
-# what would hide other times. The trails are below the rest.
-_SMALL = ("agent_names", "copy_distances", "distances")
-_CROWDED = (*_SMALL, "copies")
+# Distances are told in a corner, where nothing hides them. Not shown where several times are in one
+# picture: letters that would be too small to be read, and what would hide other times. The trails
+# are below the rest.
+_SMALL = (DISTANCE_LABELS, "agent_names", "copy_distances")
+_CROWDED = (*_SMALL, "distances", "copies")
 _TRAILS = "trails"
 _LOOKS = 15  # in a row, at a picture that may stay empty, for one at rest
 _MOVING = ("object", "object_lines", "agents", MOVING_OBSTACLES)
@@ -87,37 +90,49 @@ class SnapshotPictures:
         if layout == OVERLAID:
             self._save(self._overlaid(times), times, layout)
         elif layout == SIDE_BY_SIDE:
-            height = round(_ROW_LETTERS * self._options.size[1])
-            pictures = [
-                labelled(picture, f"{time:g} s", height)
-                for time, picture in zip(times, self._pictures(times, self._without(*_SMALL)))
-            ]
-            self._save(side_by_side(pictures), times, layout)
+            pictures, captions = [], []
+            for time, picture in zip(times, self._pictures(times, self._without(*_SMALL))):
+                pictures.append(picture)
+                captions.append(self._caption(f"{time:g} s", _TIME_LETTERS, _ROW_LETTERS))
+            row = [labelled(*each, clear_of=pictures) for each in zip(pictures, captions)]
+            self._save(side_by_side(row), times, layout)
         else:
-            for time, picture in zip(times, self._pictures(times, self._configuration)):
-                self._save(picture, [time], layout)
+            configuration = self._without(DISTANCE_LABELS)
+            for time, picture in zip(times, self._pictures(times, configuration)):
+                caption = self._caption(f"{time:g} s", _LETTERS, _LETTERS)
+                self._save(labelled(picture, caption, clear_of=[picture]), [time], layout)
 
     def film(self, path: Path, speed: Optional[float]) -> None:
         """A video of the whole run. Raises ProgramError, OSError."""
         times, speed = film_times(*self._source.time_range, speed)
         size = self._options.size
-        height = round(_VIDEO_LETTERS * size[1])
+        configuration = self._without(DISTANCE_LABELS)
         print(f"{NAME}: filming at {speed:g} times real time", file=sys.stderr)
-        pictures = self._studio.film(self._configuration, times, self._options.timeout)
+        pictures = self._studio.film(configuration, times, self._options.timeout)
         try:
             with video_file(path, size) as add:
                 for number, (time, picture) in enumerate(zip(times, pictures), start=1):
-                    add(labelled(picture, f"{time:.1f} s", height))
+                    add(labelled(picture, self._caption(f"{time:.1f} s", _LETTERS, _LETTERS)))
                     self._progress(number / len(times))
         finally:
             self._progress.close()
         print(path, flush=True)
 
     def _overlaid(self, times: Sequence[float]) -> np.ndarray:
-        pictures, places = [], []
-        for picture in self._pictures(times, self._without(*_CROWDED, _TRAILS)):
+        # Imported late: matplotlib.
+        from matplotlib.colors import to_rgb
+
+        from deformable_manipulation.plots.style import colour_of
+
+        pictures, places, legend = [], [], []
+        colors = [255.0 * np.array(to_rgb(colour_of(number))) for number in range(len(times))]
+        height = round(_LETTERS * self._options.size[1])
+        waiting = self._pictures(times, self._without(*_CROWDED, _TRAILS))
+        for time, color, picture in zip(times, colors, waiting):
             pictures.append(picture)
             places.append(self._studio.leader)
+            distance = self._studio.distance and f": distance {self._studio.distance}"
+            legend.append((f"\u25a0 {time:g} s{distance}", height, color.astype(int)))
         print(f"{NAME}: taking pictures of the background and foreground", file=sys.stderr)
         self._studio.labels = time_labels(times, places)
         targets = [f"target_{agent.name}" for agent in self._source.scenario.agents]
@@ -132,7 +147,17 @@ class SnapshotPictures:
             )
             for hidden in ((LABELS,), (LABELS, _TRAILS), (_TRAILS,))
         )
-        return overlaid(base, empty, pictures, labels)
+        picture = overlaid(base, empty, pictures, colors, labels)
+        return labelled(picture, legend, clear_of=[picture])
+
+    def _caption(self, time: str, time_letters: float, letters: float) -> List[tuple]:
+        """The time and the distance of the newest picture; letters in shares of its height."""
+        height = self._options.size[1]
+        lines: List[tuple] = [(time, round(time_letters * height), INK)]
+        if self._studio.distance:
+            text = f"distance {self._studio.distance}"
+            lines.append((text, round(letters * height), _DISTANCE_COLOR))
+        return lines
 
     def _without(self, *namespaces: str) -> dict:
         return without(self._configuration, namespaces)

@@ -84,7 +84,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
 
 
 def _run_all(names: Sequence[str], quick: bool) -> Dict[str, Any]:
-    # Imported late: SciPy and the simulation take longer to load than a wrong argument to be told.
+    # Imported late: SciPy loads slowly, and a wrong argument is reported at once.
     from deformable_manipulation.validation.cases import run_case
 
     results = {}

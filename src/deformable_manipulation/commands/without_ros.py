@@ -10,7 +10,7 @@ def warn_of_standing_obstacles(command: str, scenario: Scenario) -> None:
     """Tell on stderr which obstacles stand, because a topic or tf would have to move them."""
     for name in names_without_path(scenario):
         print(
-            f"{command}: WARNING: obstacle {name!r} stands at its own pose: its motion comes from "
-            "ROS; use the launch file, or give the obstacle waypoints",
+            f"{command}: WARNING: obstacle {name!r} stands still: its motion comes from ROS. Use "
+            "the launch file, or give the obstacle waypoints",
             file=sys.stderr,
         )

@@ -1,4 +1,4 @@
-"""What an assistant's controller decided in one cycle, and on what grounds."""
+"""What an assistant's controller decided in one cycle, and why."""
 
 from dataclasses import dataclass, field
 from typing import Mapping
@@ -16,8 +16,8 @@ def _unknown_vector():
 class Decision:
     """One cycle of an assistant's controller; what ControllerState.msg tells.
 
-    The command is always finite. Everything else is NaN where it is not known, as while waiting
-    for valid input.
+    The command is always finite. Everything else is NaN if it is not known, for example
+    while waiting for valid input.
     """
 
     status: Status

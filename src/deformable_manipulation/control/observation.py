@@ -28,7 +28,7 @@ class Observation:
     velocities: Optional[np.ndarray] = None
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
-    lateness: float = 0.0  # s, by which commands that answer it act later than a cycle after it
+    lateness: float = 0.0  # s, delay beyond one cycle until commands that answer it act
 
 
 def find_fault(observation, agents):

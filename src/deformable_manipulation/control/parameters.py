@@ -10,11 +10,11 @@ from deformable_manipulation.scenario.spec import Scenario
 
 
 class NativeParameters(NamedTuple):
-    """What ``_control.TeamController`` is made of.
+    """Parameters of ``_control.TeamController``.
 
     Attributes:
-        controller: the scenario's section, each barrier's with what it derives from the object.
-        team: who is commanded, and among whom.
+        controller: the scenario's section, with what the barriers derive from the object.
+        team: all agents, and which of them are commanded.
     """
 
     controller: Dict[str, Any]
@@ -30,7 +30,7 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
         safety: False leaves the barriers out.
 
     Raises:
-        ValueError: the scenario has no assistant of a name.
+        ValueError: the scenario has no assistant of that name.
     """
     commanded, leader = [_index_of(scenario, name) for name in names], scenario.leader_index
     starts = np.array([each.start for each in scenario.agents], dtype=float)
@@ -61,6 +61,6 @@ def _index_of(scenario: Scenario, name: str) -> int:
     assistants = {scenario.agents[i].name: i for i in scenario.assistants}
     if name not in assistants:
         raise ValueError(
-            f"agent: '{name}', allowed are the scenario's assistants: {', '.join(assistants)}"
+            f"agent: '{name}' must be one of the scenario's assistants: {', '.join(assistants)}"
         )
     return assistants[name]

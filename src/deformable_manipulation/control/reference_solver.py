@@ -1,7 +1,7 @@
 """Solvers of qpsolvers in place of the native one: references for tests and comparisons.
 
 A solver is called with P (n, n), q (n,), A (m, n), b (m,) and returns the x (n,) that minimises
-1/2 x' P x + q' x subject to A x >= b, or None where it found none. The safety filter checks what
+1/2 x' P x + q' x subject to A x >= b, or None if it found none. The safety filter checks what
 it returns.
 """
 
@@ -28,11 +28,11 @@ def find_solver(name):
 
     if name not in qpsolvers.dense_solvers:
         raise ValueError(
-            f"controller.solver: '{name}', allowed are native and the installed dense solvers of "
+            f"controller.solver: '{name}' must be native or one of the installed dense solvers of "
             f"qpsolvers: {', '.join(sorted(qpsolvers.dense_solvers))}; install it or choose one"
         )
     if name == "quadprog":
-        from quadprog import solve_qp  # optional: it need not be there for another solver
+        from quadprog import solve_qp  # optional: another solver does not need it
 
         return partial(_solve_with_quadprog, solve_qp)
     return partial(_solve_with_qpsolvers, qpsolvers, name)
@@ -41,8 +41,8 @@ def find_solver(name):
 def _solve_with_quadprog(solve_qp, P, q, A, b):
     """Solve with quadprog's dual active-set method (Goldfarb and Idnani, 1983).
 
-    It has no limit of its iterations and can go round for ever where several constraints meet in
-    one point; loosening each by another minute amount keeps them from doing so.
+    It has no limit on its iterations and can loop forever if several constraints meet in one
+    point. Loosening each by a different tiny amount prevents that.
     """
     try:
         return solve_qp(P, -q, A.T, b - _LOOSENED[: len(b)], 0)[0]

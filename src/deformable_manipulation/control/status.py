@@ -1,4 +1,4 @@
-"""What came of a controller's cycle."""
+"""The outcome of a controller's cycle."""
 
 from enum import IntEnum
 

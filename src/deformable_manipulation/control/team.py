@@ -1,4 +1,4 @@
-"""The safe velocity controller of one or several assistants: of all of them it is centralised."""
+"""The safe velocity controller of one or several assistants; centralised if it commands all."""
 
 import time
 
@@ -75,10 +75,10 @@ class TeamController:
         self._native.set_enabled(self._members[name], enabled)
 
     def set_parameters(self, scenario):
-        """Go on with the gains, limits and margins of another scenario of the same agents.
+        """Continue with the gains, limits and margins of another scenario of the same agents.
 
-        What was observed and the references stay, and so do ``formulation``, ``priority``,
-        ``solver`` and which barriers are in use.
+        Observations and references stay, and so do ``formulation``, ``priority``, ``solver`` and
+        the barriers in use.
 
         Raises:
             ValueError: they cannot be used; nothing changes then.
@@ -86,7 +86,7 @@ class TeamController:
         self._native.set_parameters(*native_parameters(scenario, self.names, self._safety))
 
     def reset(self):
-        """Back to the start: forget all states and take the scenario's references again."""
+        """Go back to the start: forget all states and use the scenario's references again."""
         self._native.reset()
 
     def take_reference(self, name, observation):
@@ -103,8 +103,8 @@ class TeamController:
     def update(self, observation):
         """Decide the velocities for one state.
 
-        A state that is not newer than the last one gets the same answer again; one that is older
-        by more than the timeout means that time was set back, and starts afresh.
+        A state that is not newer than the last one gets the same answer again. If it is older by
+        more than the timeout, time was set back: the controller starts again.
 
         Args:
             observation: :class:`~.observation.Observation`.
@@ -141,7 +141,7 @@ class TeamController:
         return self._decisions(self._native.wait(), reason)
 
     def margins(self, name, positions, distance):
-        """The lowest h of each barrier in a state that may be another than the observed one.
+        """The lowest h of each barrier in any state, not only the observed one.
 
         Args:
             name: of the assistant.
@@ -191,7 +191,7 @@ class TeamController:
 
 
 def _sentence(status, fault, slack):
-    """The status in words: what is waited for, and what is relaxed."""
+    """The status in words, with what it waits for and what is relaxed."""
     if status is Status.WAITING:
         return f"Waits, at rest or slowing down to it: {fault}."
     if status is Status.RELAXED:

@@ -87,7 +87,7 @@ class CycleMonitor:
         values.update(_spread("computation", durations))
         if latencies:
             values.update(_spread("latency", latencies))
-            values["answers later than a cycle, total"] = str(self._late)
+            values["answers that took longer than a cycle, total"] = str(self._late)
         level, text = self._judge(rate, latencies)
         return Report(level, text, values)
 
@@ -99,9 +99,9 @@ class CycleMonitor:
             return level, f"Answers {rate:.0f} states per second instead of {self._rate:g}."
         late = sum(latency > 1.0 / self._rate for latency in latencies)
         if 2 * late > len(latencies):
-            return Level.ERROR, "Most answers come later than a cycle: the chain is too slow."
+            return Level.ERROR, "Most answers take longer than a cycle: the chain is too slow."
         if late:
-            return Level.WARN, f"{late} of {len(latencies)} answers came later than a cycle."
+            return Level.WARN, f"{late} of {len(latencies)} answers took longer than a cycle."
         return Level.OK, f"Answers {rate:.0f} states per second in time."
 
 
@@ -187,7 +187,7 @@ def input_report(fault):
     """Report on a node's inputs from the clause that names what is lost; empty: nothing is."""
     if fault:
         return Report(Level.STALE, fault[0].upper() + fault[1:] + ".")
-    return Report(Level.OK, "All inputs come in time.")
+    return Report(Level.OK, "All inputs arrive in time.")
 
 
 def _spread(name, seconds):

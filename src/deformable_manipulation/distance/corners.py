@@ -1,4 +1,4 @@
-"""Where an obstacle is."""
+"""The places of obstacles."""
 
 import numpy as np
 

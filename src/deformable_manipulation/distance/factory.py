@@ -10,7 +10,7 @@ def make_minimum_distance(scenario: Scenario):
     """The distance computation for a scenario's object and obstacles, by the chosen backend.
 
     Raises:
-        ValueError: an obstacle's file cannot be read, or its shape is none.
+        ValueError: an obstacle's file cannot be read, or its shape is invalid.
     """
     body, collision = scenario.object, scenario.controller.collision
     backend: Any = MinimumDistance

@@ -59,7 +59,7 @@ class MinimumDistance:
         self._triangles = None if triangles is None else np.ascontiguousarray(triangles)
         self.names = tuple(spec.name for spec in obstacles)
         self._native = _distance.MinimumDistance(native, margin, band, list(self.names))
-        #: Sentences about what was mended or ignored in the meshes.
+        #: Sentences about what was repaired or ignored in the meshes.
         self.warnings = tuple(warnings)
 
     @property
@@ -72,10 +72,10 @@ class MinimumDistance:
 
         Args:
             index: of the obstacle.
-            pose: obstacle_motion.MovingPose; its velocity is told in the features.
+            pose: obstacle_motion.MovingPose; the features include its velocity.
 
         Raises:
-            ValueError: a number is not finite or the quaternion has not the length 1.
+            ValueError: a number is not finite, or the quaternion does not have length 1.
         """
         self._obstacles[index].set_pose(*pose)
 
@@ -89,14 +89,14 @@ class MinimumDistance:
             features.Distances.
 
         Raises:
-            ValueError: the shape is another, a point is not finite, or a triangle refers to a point
-                that there is not.
+            ValueError: the shape is wrong, a point is not finite, or a triangle refers to a point
+                that does not exist.
         """
         return self._native.compute(checked_points(points), self._triangles)
 
 
 def checked_points(points):
-    """The points as an array of numbers. Raises ValueError where the shape is another."""
+    """The points as an array of numbers. Raises ValueError if the shape is wrong."""
     points = np.asarray(points, dtype=float)
     if points.ndim != 3 or points.shape[0] < 1 or points.shape[1] < 2 or points.shape[2] != 3:
         raise ValueError(
@@ -140,7 +140,7 @@ def pose_problems(spec):
                 "scale is {}; it must be three finite numbers other than 0".format(spec.scale)
             )
     elif spec.plane not in PLANE_AXES:
-        problems.append("plane is {!r}; allowed are {}".format(spec.plane, _quoted(PLANE_AXES)))
+        problems.append("plane is {!r}; allowed: {}".format(spec.plane, _quoted(PLANE_AXES)))
     if not _are_numbers(spec.translation, 3):
         problems.append(
             "translation is {}; it must be three finite numbers of metres".format(spec.translation)
@@ -156,7 +156,7 @@ def pose_problems(spec):
 
 
 def _native_obstacle(spec):
-    """The C++ core's obstacle, and warnings. Raises ValueError where the shape is none."""
+    """The C++ core's obstacle, and warnings. Raises ValueError if its shape is invalid."""
     if isinstance(spec, MeshObstacle):
         mesh = scaled_mended_mesh(spec)
         obstacle = _distance.MeshObstacle(*mesh[:2], spec.translation, spec.rotation)

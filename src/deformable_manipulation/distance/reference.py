@@ -54,7 +54,7 @@ class ReferenceMinimumDistance:
         self.warnings = ()
 
     def set_pose(self, index, pose):
-        """Move an obstacle; see MinimumDistance. Its shape is made anew."""
+        """Move an obstacle; see MinimumDistance. Its shape is made again."""
         spec = dataclasses.replace(
             self._obstacles[index], translation=pose.translation, rotation=pose.rotation
         )

@@ -13,7 +13,7 @@ _TOUCHING = 1e-9  # m
 
 
 def reference_shape(spec):
-    """The shape of an obstacle's specification. Raises ValueError where it is none."""
+    """The shape of an obstacle's specification. Raises ValueError if it is invalid."""
     try:
         return MeshShape(spec) if isinstance(spec, MeshObstacle) else PolygonShape(spec)
     except ImportError as error:

@@ -35,7 +35,7 @@ def check_rings(points: Points) -> Rings:
     """The rings of a region: a point is in it if an odd number of them are around the point.
 
     A ring within another one is thus a hole, and rings side by side are pieces. Each ring is as of
-    :func:`check_ring`. Raises PolygonError where one is not, and where two cross or touch.
+    :func:`check_ring`. Raises PolygonError if one is not, and where two cross or touch.
     """
     rings = rings_of(points)
     if len(rings) == 1:
@@ -54,7 +54,7 @@ def check_ring(points: Iterable[Sequence[float]]) -> Ring:
     """The ring of a simple polygon, closed implicitly, in the order given.
 
     A last point that repeats the first, and points that repeat the one before, are dropped. Either
-    orientation is accepted. Raises PolygonError where a coordinate is not finite or beyond
+    orientation is accepted. Raises PolygonError if a coordinate is not finite or beyond
     LARGEST_COORDINATE, or where the ring has fewer than three distinct points, no area, or crosses
     or touches itself.
 

@@ -9,7 +9,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def millimetres(metres: Optional[float], digits: int = 1) -> str:
-    """A length in mm, without the unit; empty where there is none."""
+    """A length in mm, without the unit; empty if there is none."""
     if metres is None:
         return ""
     text = f"{1e3 * metres:.{digits}f}"

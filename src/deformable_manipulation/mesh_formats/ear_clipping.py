@@ -52,7 +52,7 @@ def _unit_normals(corners: np.ndarray) -> np.ndarray:
 def _flattened(corners: np.ndarray) -> np.ndarray:
     """Corners (N, 2) in the polygon's plane, counterclockwise, of size 1.
 
-    All 0 where there is no such plane: the polygon's halves cancel out, or it is a line.
+    All 0 if there is no such plane: the polygon's halves cancel out, or it is a line.
     """
     with np.errstate(all="ignore"):
         normal = _unit_normals(corners[None])[0]

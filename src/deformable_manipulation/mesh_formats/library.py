@@ -19,7 +19,7 @@ _PACKED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_qu
 
 
 def formats():
-    """The endings, without a dot, of what Trimesh reads. Raises FormatError where it is missing."""
+    """The endings, without a dot, of what Trimesh reads. Raises FormatError if it is missing."""
     return set(_trimesh().available_formats())
 
 

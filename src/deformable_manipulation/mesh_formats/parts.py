@@ -36,7 +36,7 @@ class Assembly:
         return not self._parts
 
     def mesh(self, metres: float) -> RawMesh:
-        """All parts [m]. Raises FormatError where there are none.
+        """All parts [m]. Raises FormatError if there are none.
 
         Args:
             metres: per unit of the parts.
@@ -48,13 +48,13 @@ class Assembly:
 
 
 def check_depth(depth: int) -> None:
-    """Raises FormatError where parts are within parts without an end."""
+    """Raises FormatError if parts are within parts without an end."""
     if depth > LARGEST_DEPTH:
         raise FormatError("parts of it are within one another in a circle, or too deep")
 
 
 def check_range(corners: np.ndarray, vertices: int, thing: str) -> None:
-    """Raises FormatError where a corner is of no vertex."""
+    """Raises FormatError if a corner is of no vertex."""
     wrong = (corners < 0) | (corners >= vertices)
     if wrong.any():
         text = "{} name vertex {}; the {} vertices are counted from 0"

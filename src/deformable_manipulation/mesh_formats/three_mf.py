@@ -55,7 +55,7 @@ class _Package:
         model = self._models[self._root]
         unit = model.attrib.get("unit", "millimeter")
         if unit not in _METRES:
-            text = "its unit is '{}'; allowed are {}"
+            text = "its unit is '{}'; allowed: {}"
             raise FormatError(text.format(unit, ", ".join(_METRES)))
         for item in children(model.find("build"), "item"):
             self._add(item, self._root, np.eye(4), 0)

@@ -40,8 +40,7 @@ def _positions(waypoints):
     for index, waypoint in enumerate(waypoints):
         if np.shape(waypoint.position) != (3,):
             raise ValueError(
-                f"leader.waypoints[{index}].position: {waypoint.position}, allowed are three "
-                "numbers [m]"
+                f"leader.waypoints[{index}].position: {waypoint.position} must be three numbers [m]"
             )
     return np.array([waypoint.position for waypoint in waypoints], dtype=float)
 

@@ -26,11 +26,11 @@ class PoseTrack:
     def __init__(self, timeout, min_interval):
         self._timeout = timeout
         self._estimator = VelocityEstimator(min_interval, timeout)
-        self._stamp = math.nan  # s, of the pose; inf: it holds for ever
+        self._stamp = math.nan  # s, of the pose; inf: it holds forever
         self._pose: Any = None  # MovingPose, once there is one
 
     def hold(self, position, orientation):
-        """Take a pose that holds for ever."""
+        """Take a pose that holds forever."""
         self._stamp, self._pose = math.inf, MovingPose(tuple(position), tuple(orientation))
 
     def update(self, stamp, position, orientation):
@@ -42,7 +42,7 @@ class PoseTrack:
             orientation: quaternion x, y, z, w.
 
         Returns:
-            Why it is dropped, as a clause; empty where it is used, or not newer than the last one.
+            Why it is dropped, as a clause; empty if it is used, or not newer than the last one.
         """
         if not all(map(math.isfinite, (stamp, *position, *orientation))):
             return "it is not finite"
@@ -62,7 +62,7 @@ class PoseTrack:
         return ""
 
     def fault(self, now):
-        """Why there is no pose at a time [s], as a clause; empty where there is one."""
+        """Why there is no pose at a time [s], as a clause; empty if there is one."""
         if self._pose is None:
             return "no pose yet"
         age = now - self._stamp

@@ -57,7 +57,7 @@ class SmoothPath:
 
 
 class Pieces:
-    """The pieces between waypoints, one that lasts for ever where there is one waypoint alone.
+    """The pieces between waypoints, one that lasts forever where there is one waypoint alone.
 
     Args:
         times: (K,) s, increasing, K >= 1.
@@ -106,7 +106,7 @@ def quintics(starts, changes, first, last):
 def waypoint_rates(times, changes):
     """Rates (K, D) [1/s] at waypoints, from the changes (K - 1, D) between them.
 
-    Of an inner one the harmonic mean of the mean rates before and after it, or zero where they
+    Of an inner one the harmonic mean of the mean rates before and after it, or zero if they
     differ in sign (Fritsch and Butland, 1984); zero at the ends.
     """
     rates = np.zeros((len(times), changes.shape[1]))

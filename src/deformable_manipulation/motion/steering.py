@@ -112,7 +112,7 @@ class SteeredLeader:
         self._told_to_start = False
 
     def start(self):
-        """Begin the path with the next state, whoever follows.
+        """Begin the path with the next state, even if not all assistants follow.
 
         Raises:
             ValueError: it has begun, or the leader is moved by hand; the message says so.
@@ -182,5 +182,5 @@ class SteeredLeader:
 def _three_finite(values, name):
     array = np.asarray(values, dtype=float)
     if array.shape != (3,) or not np.isfinite(array).all():
-        raise ValueError(f"the {name} is {list(values)}, allowed are three finite numbers")
+        raise ValueError(f"the {name} is {list(values)}; it must be three finite numbers")
     return array.tolist()

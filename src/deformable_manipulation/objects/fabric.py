@@ -42,7 +42,7 @@ class FabricSpec(ObjectSpec):
     )
     thickness: float = parameter(
         Number("m", above=0.0, at_most=1.0),
-        "For distances, which are measured from the surface: half of it lies on either side of the "
+        "Distances are measured from the surface; half of the thickness lies on either side of the "
         "mesh.",
         native=True,
     )
@@ -190,7 +190,7 @@ class _Shape:
 
     size: Optional[Tuple[float, float]] = parameter(
         Array(2, Number("m", above=0.0, at_most=1e3), "[along x, along y]"),
-        "Of a rectangle, along the x and y axes of `pose` from its origin.",
+        "Size of a rectangle, along the x and y axes of `pose` from its origin.",
         default=None,
         default_text="none",
         allowed="a whole number of cells",
@@ -203,7 +203,11 @@ class _Shape:
         allowed="at most 20000 particles",
     )
     mesh: Optional[Mesh] = parameter(
-        InlineMesh(), "Any other shape.", default=None, default_text="none", allowed="see below"
+        InlineMesh(),
+        "A mesh of any shape.",
+        default=None,
+        default_text="none",
+        allowed="see below",
     )
     scale: Vector = parameter(
         Scale(), "Metres per unit of the file, along its axes.", default=(1.0, 1.0, 1.0)
@@ -247,11 +251,11 @@ def _check_combination(node: Node, given) -> None:
     """Report keys of the shape that do not go together."""
     for key in ("size", "resolution"):
         if "mesh" in given and key in given:
-            _report(node, key, "does not go with mesh; remove one of them")
+            _report(node, key, "cannot be combined with mesh; remove one of the two")
         elif "mesh" not in given and key not in given:
             _report(node, key, "is missing; give size and resolution, or mesh instead")
     if "scale" in given and not isinstance(node.value.get("mesh"), str):
-        _report(node, "scale", "is of a mesh file; remove it")
+        _report(node, "scale", "applies only to mesh files; remove it")
 
 
 def _checked_count(node: Node, mesh: Mesh) -> Mesh:

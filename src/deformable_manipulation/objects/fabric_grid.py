@@ -13,9 +13,10 @@ _WHOLE = 1e-6  # relative; sizes and resolutions are typed with a few digits
 def read_grid(node: Node, size: Tuple[float, float], resolution: float) -> Mesh:
     """The mesh of a grid; reports sizes that hold no whole number of cells, and too many particles.
 
-    :param node: the ``object`` section.
-    :param size: [m] along x and y.
-    :param resolution: cells per metre.
+    Args:
+        node: the ``object`` section.
+        size: [m] along x and y.
+        resolution: cells per metre.
     """
     cells = [length * resolution for length in size]
     broken = [axis for axis in range(2) if not _is_whole(cells[axis])]

@@ -27,7 +27,7 @@ def _folder() -> Path:
 def presets(kind: str) -> Mapping[str, Mapping[str, Any]]:
     """All presets for objects of a kind, by name, with their NOTES: ``config/materials/KIND.yaml``.
 
-    Not to be changed. None where there is no such file.
+    Not to be changed. None if there is no such file.
     """
     path = _folder() / "{}.yaml".format(kind)
     if not path.is_file():
@@ -43,8 +43,9 @@ def preset_values(kind: str, name: str) -> Dict[str, Any]:
 def read_with_material(node: Node, kind: str, read: Callable[[Node], Any]):
     """Read an ``object`` section after its ``material`` gave the keys that the section lacks.
 
-    :param node: the section, a mapping.
-    :param read: reader of the section without ``material``.
+    Args:
+        node: the section, a mapping.
+        read: reader of the section without ``material``.
     """
     if "material" not in node.value:
         return read(node)
@@ -67,10 +68,10 @@ def _filled(node: Node, kind: str, name: str, given: Mapping[str, Any]) -> Node:
 def _unknown(value, kind: str) -> str:
     for other in kinds_with_presets():
         if other != kind and isinstance(value, str) and value in presets(other):
-            hint = " that is a material of type {};".format(other)
+            hint = " it is a material of type {};".format(other)
             break
     else:
         hint = nearest(value, presets(kind)) if isinstance(value, str) else ""
-    return "is no known material of type {};{} known: {}".format(
+    return "is not a known material of type {};{} known: {}".format(
         kind, hint, ", ".join(presets(kind)) or "none; remove it, and give its values"
     )

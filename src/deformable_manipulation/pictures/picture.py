@@ -5,7 +5,7 @@ import time
 import numpy as np
 
 _CLEARLY_DIFFERENT = 40  # of 255, in a channel; a faint grid is less
-_SHADES = 32  # of 256: colors are told apart in steps of this size
+_SHADES = 32  # of 256: colors are distinguished in steps of this size
 _LEAST_SHARE = 5e-4  # of the picture, for something that is shown and for a color
 _LEAST_COLORS = 3  # beside the background
 _PERIOD = 0.1  # s between looks
@@ -78,7 +78,7 @@ def save_png(picture, path, description):
     Raises:
         OSError: it cannot be written.
     """
-    # Imported late: takes longer to load than a mistake in the arguments to be told.
+    # Imported late: matplotlib loads slowly, and a mistake in the arguments is reported at once.
     from matplotlib.image import imsave
 
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -4,11 +4,14 @@ import numpy as np
 
 _DIFFERENT = 12  # of 255, in a channel, from the picture without what moves
 _ALIKE = 0.5  # of the pixels of pictures of the same view
-_PALEST = 0.45  # opacity of the earliest of overlaid pictures
+_STRIPE = 14  # pixels along an edge
+_OPAQUE = 96.0  # of 255, from the picture without what moves; less is taken as translucent
+_DARKEST = 0.7  # brightness of what is black in a picture that is drawn in one color
+_CLEARLY = 60  # of 255, in a channel: differs more than a faint grid
 _GAP = 8  # pixels between pictures side by side
 _WHITE = 255
-_INK = (26, 26, 26)
-_MARGIN = 0.4  # of the letters' height, around a label
+INK = (26, 26, 26)
+_MARGIN, _LINE_SPACING = 0.4, 1.3  # of the letters' height, around a label and of its lines
 
 
 def is_alike(picture, other):
@@ -17,22 +20,41 @@ def is_alike(picture, other):
     return np.mean(difference <= _DIFFERENT) > _ALIKE
 
 
-def overlaid(base, empty, pictures, top):
-    """Pictures (height, width, 3) over each other, the earlier ones paler.
+def overlaid(base, empty, pictures, colors, top):
+    """Pictures (height, width, 3) over each other, each in one color.
+
+    Where several of them show something, they take turns in stripes, so that none hides another.
 
     Args:
-        base: what they are laid over.
+        base: what they are laid over, in shades of gray where it differs from the empty picture.
         empty: the pictures without what moves.
         pictures: in their order; what they differ in from the empty one is laid over the base.
-        top: a picture that is laid over them all in the same way.
+        colors: of the pictures, (red, green, blue) up to 255.
+        top: a picture that is laid over them all as it is.
     """
     result = base.astype(float)
-    opacities = np.linspace(_PALEST, 1.0, len(pictures)) if len(pictures) > 1 else [1.0]
-    for picture, opacity in zip([*pictures, top], [*opacities, 1.0]):
-        difference = np.abs(picture.astype(int) - empty).max(axis=2)
-        moves = difference > _DIFFERENT
-        result[moves] += opacity * (picture[moves] - result[moves])
+    traces = _differs(base, empty)
+    result[traces] = _brightness(base[traces])[:, None]
+    covered = np.zeros(base.shape[:2], dtype=int)
+    stripes = np.add.outer(*(np.arange(length) for length in base.shape[:2])) // _STRIPE
+    for picture, color in zip(pictures, colors):
+        moves = _differs(picture, empty)
+        covered[moves] += 1
+        moves &= stripes % np.maximum(covered, 1) == np.maximum(covered, 1) - 1
+        difference = np.abs(picture[moves].astype(int) - empty[moves]).max(axis=1)
+        opacity = np.minimum(difference / _OPAQUE, 1.0)[:, None]
+        light = _DARKEST + (1.0 - _DARKEST) * _brightness(picture[moves])[:, None] / _WHITE
+        result[moves] += opacity * (light * np.array(color) - result[moves])
+    result[_differs(top, empty)] = top[_differs(top, empty)]
     return np.rint(result).astype(np.uint8)
+
+
+def _differs(picture, empty):
+    return np.abs(picture.astype(int) - empty).max(axis=2) > _DIFFERENT
+
+
+def _brightness(colors):
+    return colors @ np.array([0.299, 0.587, 0.114])
 
 
 def side_by_side(pictures):
@@ -42,19 +64,50 @@ def side_by_side(pictures):
     return np.concatenate(row[1:], axis=1)
 
 
-def labelled(picture, text, height):
-    """A copy of a picture with a text of some height [pixels] in its upper left corner."""
-    # Imported late: they take longer to load than a mistake in the arguments to be told.
+def labelled(picture, lines, clear_of=()):
+    """A copy of a picture with some lines of text in a corner.
+
+    Args:
+        lines: (text, height [pixels], color) of each.
+        clear_of: pictures (height, width, 3); the corner is the one where the least of them would
+            be hidden. Default: the upper left one.
+    """
+    # Imported late: they load slowly, and a mistake in the arguments is reported at once.
     from matplotlib.font_manager import findfont
     from PIL import Image, ImageDraw, ImageFont
 
+    path = findfont("DejaVu Sans")
+    fonts = [ImageFont.truetype(path, height) for _, height, _ in lines]
+    margin = round(_MARGIN * max(height for _, height, _ in lines))
+    widths = [font.getbbox(text)[2] for font, (text, _, _) in zip(fonts, lines)]
+    heights = [round(_LINE_SPACING * height) for _, height, _ in lines]
+    box = (max(widths) + 2 * margin, sum(heights) + 2 * margin)  # width, height
     image = Image.fromarray(picture)
+    left, upper = _calm_corner(image.size, box, margin, clear_of)
     draw = ImageDraw.Draw(image)
-    font = ImageFont.truetype(findfont("DejaVu Sans"), height)
-    margin = round(_MARGIN * height)
-    box = draw.textbbox((2 * margin, 2 * margin), text, font=font)
-    draw.rectangle(
-        (margin, margin, box[2] + margin, box[3] + margin), fill=(_WHITE, _WHITE, _WHITE)
-    )
-    draw.text((2 * margin, 2 * margin), text, fill=_INK, font=font)
+    draw.rectangle((left, upper, left + box[0], upper + box[1]), fill=(_WHITE, _WHITE, _WHITE))
+    upper += margin
+    for font, height, (text, _, color) in zip(fonts, heights, lines):
+        draw.text((left + margin, upper), text, fill=tuple(color), font=font)
+        upper += height
     return np.asarray(image)
+
+
+def _calm_corner(whole, size, margin, pictures):
+    """Left and upper edge of a box in the corner where it hides the least of some pictures."""
+    width, height = whole
+    corners = [
+        (left, upper)
+        for upper in (margin, max(height - margin - size[1], 0))
+        for left in (margin, max(width - margin - size[0], 0))
+    ]
+
+    def hidden(corner):
+        left, upper = corner
+        box = slice(upper, upper + size[1]), slice(left, left + size[0])
+        parts = [picture[box].reshape(-1, 3).astype(int) for picture in pictures]
+        background = [np.median(part, axis=0) for part in parts]
+        different = [np.abs(part - color) > _CLEARLY for part, color in zip(parts, background)]
+        return sum(np.count_nonzero(each.any(axis=1)) for each in different)
+
+    return min(corners, key=hidden)

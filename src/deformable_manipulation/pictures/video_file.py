@@ -9,19 +9,19 @@ import tempfile
 from deformable_manipulation.system.program import ProgramError
 
 RATE = 25  # pictures per second
-_QUALITY = 18  # of x264, constant rate factor: hardly to be told from the original
+_QUALITY = 18  # of x264, constant rate factor: looks almost like the original
 _END_TIMEOUT = 60.0  # s
 
 
 def require_ffmpeg():
-    """Raises ProgramError where ffmpeg is not installed."""
+    """Raises ProgramError if ffmpeg is not installed."""
     if shutil.which("ffmpeg") is None:
         raise ProgramError("ffmpeg, which makes videos, is not installed: apt-get install ffmpeg")
 
 
 @contextlib.contextmanager
 def video_file(path, size):
-    """A video, for the time of a with statement; it is there, whole, when that has ended well.
+    """A video, for the time of a with statement; it is complete when that has ended without error.
 
     Args:
         path: of the MP4 file; what was there is replaced.

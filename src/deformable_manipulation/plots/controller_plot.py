@@ -11,8 +11,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.plots.limits import (
+    draw_distance,
+    draw_limit,
+    mark_violation,
+    start_at_zero,
+    with_lowest,
+)
 from deformable_manipulation.plots.style import (
-    BLACK,
     BLUE,
     COLUMN_WIDTH,
     MARGIN_LINES,
@@ -28,9 +34,6 @@ from deformable_manipulation.recording.timeseries import AXES
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
 MOVING = 1e-4  # m/s, velocity components that stay below are left out
-# Farther than this many offsets from the obstacle, distances say nothing about safety, and showing
-# them would hide a violation of some millimetres.
-DISTANCE_RANGE = 5.0
 
 # Background where the controller's status is one of these; the tones also differ in grey. The
 # rare ones get an outline, so that a single cycle among thousands still shows.
@@ -48,10 +51,10 @@ def plot_controller(
 ) -> Figure:
     """Draw the data plot of one controller of a run.
 
-    Panels over a shared time axis: distance to the obstacle with its offset, norm of the tracking
+    Panels over a shared time axis: distance to the obstacle with its limit, norm of the tracking
     error, margins of the other barriers, and every moving component of the nominal and the
-    commanded velocity. Shading tells what the safety filter did; where a limit is violated, the
-    violation is filled and marked at its worst.
+    commanded velocity. Shading shows what the safety filter did. Violations of a limit are filled
+    and marked at their worst.
 
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
@@ -62,10 +65,10 @@ def plot_controller(
         figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
         figure.set_layout_engine("constrained", h_pad=0.02, w_pad=0.02, hspace=0.02)
         axes = figure.subplots(panels, 1, sharex=True)
-        violated = _plot_distance(axes[0], run)
+        violated = draw_distance(axes[0], run, BLUE)
         axes[1].plot(series.time, series.error_norm, color=BLUE)
         axes[1].set_ylabel("error [m]")
-        axes[1].set_ylim(bottom=0)
+        start_at_zero(axes[1])
         violated |= _plot_margins(axes[2], series)
         for axis, component in zip(axes[3:], components):
             _plot_velocity(axis, series, component)
@@ -97,38 +100,18 @@ def _finish_figure(
     )
 
 
-def _plot_distance(axis: Axes, run: RunData) -> bool:
-    """Draw the distance; true where it falls below the offset."""
-    axis.set_ylabel("distance [m]")
-    if not np.isfinite(run.distance).any():
-        axis.text(0.5, 0.5, "no obstacle", ha="center", va="center", transform=axis.transAxes)
-        return False
-    distance = np.where(np.isfinite(run.distance), run.distance, np.nan)
-    axis.plot(run.time, distance, color=BLUE, label=_with_lowest("distance", distance))
-    violated = False
-    if run.offset is not None:
-        label = f"offset {_millimetres(run.offset)}"
-        axis.axhline(run.offset, color=BLACK, linestyle="--", linewidth=0.8, label=label)
-        violated = _mark_violation(axis, run.time, distance, run.offset)
-        top = DISTANCE_RANGE * run.offset
-        if max(0.0, np.nanmin(distance)) < top < np.nanmax(distance):
-            axis.set_ylim(top=top)
-    _legend_above(axis)
-    return violated
-
-
 def _plot_margins(axis: Axes, series: AssistantSeries) -> bool:
     """Draw all barriers' margins but that of the distance; true where one falls below zero."""
     axis.set_ylabel("margin [m]")
-    axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
+    draw_limit(axis, 0.0)
     violated = False
     between = {name: values for name, values in series.h.items() if name != "collision"}
     for (name, values), (colour, style) in zip(between.items(), cycle(MARGIN_LINES)):
         margin = np.where(np.isfinite(values), values, np.nan)
         if not np.isnan(margin).all():
-            label = _with_lowest(name, margin)
+            label = with_lowest(name, margin)
             axis.plot(series.time, margin, color=colour, linestyle=style, label=label)
-            violated |= _mark_violation(axis, series.time, margin, 0.0)
+            violated |= mark_violation(axis, series.time, margin, 0.0)
     _legend_above(axis)
     return violated
 
@@ -140,36 +123,14 @@ def _plot_velocity(axis: Axes, series: AssistantSeries, component: int) -> None:
     axis.plot(series.time, nominal, color=ORANGE, linestyle="--", label="nominal")
 
 
-def _mark_violation(axis: Axes, time: np.ndarray, values: np.ndarray, limit: float) -> bool:
-    """Fill what lies below a limit and mark the lowest point; false where nothing does."""
-    below = np.nan_to_num(values, nan=np.inf) < limit
-    if not below.any():
-        return False
-    colour = VIOLATION["color"]
-    axis.fill_between(time, values, limit, where=below, color=colour, linewidth=0.8)
-    worst = np.nanargmin(values)
-    axis.plot(time[worst], values[worst], **VIOLATION)
-    return True
-
-
 def _legend_above(axis: Axes) -> None:
     legend_above(axis, *axis.get_legend_handles_labels())
-
-
-def _with_lowest(name: str, values: np.ndarray) -> str:
-    return f"{name} (min {_millimetres(np.nanmin(values))})"
-
-
-def _millimetres(metres: float) -> str:
-    """A length in mm with as many digits as matter: 0.1 mm below 100 mm, no useless zero."""
-    length = 1e3 * metres
-    return f"{round(length, 1 if abs(length) < 100.0 else None):g} mm"
 
 
 def _shade(
     axes, series: AssistantSeries, statuses: Tuple[Status, ...], colour: str, outline: float
 ) -> bool:
-    """Shade the times with one of the statuses in all panels; false where there are none."""
+    """Shade the times with one of the statuses in all panels; false if there are none."""
     intervals = _intervals(series.time, np.isin(series.status, statuses))
     for axis in axes:
         if intervals:

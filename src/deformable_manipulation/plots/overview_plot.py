@@ -1,23 +1,37 @@
 """One figure for a whole run: where everything was, and how near to the limits."""
 
 from itertools import cycle
-from typing import List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from deformable_manipulation.plots.controller_plot import DISTANCE_RANGE
-from deformable_manipulation.plots.snapshot_plot import COLOURS, SnapshotPlot
-from deformable_manipulation.plots.style import BLACK, COLUMN_WIDTH, STYLE, legend_above, title_of
+from deformable_manipulation.plots.limits import draw_distance, draw_limit, start_at_zero
+from deformable_manipulation.plots.snapshot_plot import SnapshotPlot
+from deformable_manipulation.plots.style import (
+    BLACK,
+    COLUMN_WIDTH,
+    STYLE,
+    colour_of,
+    legend_above,
+    title_of,
+)
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.run_data import RunData
 
 _VIEW_WIDTH, _PANEL_HEIGHT = 2.9, 1.0  # in
 _VIEW_HEIGHTS = (1.2, 3.6)  # in, least and most
 _AROUND = 0.6  # in, titles and labels
-_STYLES = ("-", "--", "-.", ":")
+_GREY = "#8C8C8C"
+# Of the assistants. Colours are for times here, and dashes for limits.
+_STYLES: Sequence[Dict[str, Any]] = (
+    {"color": BLACK, "linestyle": "-"},
+    {"color": _GREY, "linestyle": "-", "linewidth": 2.0, "zorder": 1.9},
+    {"color": BLACK, "linestyle": ":"},
+    {"color": _GREY, "linestyle": ":"},
+)
 _SNAPSHOTS = 4
 _APART = 0.06  # of the run's length: nearer snapshots would hide each other
 
@@ -44,20 +58,26 @@ def plot_overview(
         view.get_gridspec().set_height_ratios((height, *(3 * (_PANEL_HEIGHT,))))
         figure.set_size_inches(COLUMN_WIDTH, height + 3 * _PANEL_HEIGHT + _AROUND)
         snapshots.draw(chosen)
-        _plot_distance(distance, run)
+        draw_distance(distance, run, BLACK)
         _plot_errors(error, run)
         _plot_margins(margin, run)
         for axis in (distance, error, margin):
             axis.set_xlim(*run.time_range)
             axis.tick_params(labelbottom=axis is margin)
-            for time, colour in zip(chosen, cycle(COLOURS)):
-                axis.axvline(time, color=colour, linewidth=0.8, zorder=0)
+            for number, time in enumerate(chosen):
+                axis.axvline(time, color=colour_of(number), linewidth=0.8, zorder=0)
         margin.set_xlabel("time [s]")
         figure.align_ylabels((view, distance, error, margin))
-        figure.suptitle(title_of(run), fontsize=STYLE["font.size"])
+        figure.legend(
+            handles=_roles(),
+            loc="outside upper center",
+            ncols=3,
+            title=title_of(run),
+            borderaxespad=0.4,
+        )
         legend_above(
             view,
-            [Line2D([], [], color=colour) for _, colour in zip(chosen, cycle(COLOURS))],
+            [Line2D([], [], color=colour_of(number)) for number in range(len(chosen))],
             [f"{time:g} s" for time in chosen],
         )
     return figure
@@ -81,30 +101,31 @@ def snapshot_times(run: RunData) -> List[float]:
     return sorted(round(moment, 1) for moment in chosen[:_SNAPSHOTS])
 
 
-def _plot_distance(axis, run: RunData) -> None:
-    distance = np.where(np.isfinite(run.distance), run.distance, np.nan)
-    axis.plot(run.time, distance, color=COLOURS[0])
-    axis.set_ylabel("distance [m]")
-    if run.offset is not None:
-        axis.axhline(run.offset, color=BLACK, linestyle="--", linewidth=0.8)
-        top = DISTANCE_RANGE * run.offset
-        known = np.isfinite(distance).any()
-        if known and max(0.0, np.nanmin(distance)) < top < np.nanmax(distance):
-            axis.set_ylim(top=top)
-
-
 def _plot_errors(axis, run: RunData) -> None:
-    for series, style in zip(run.assistants, _STYLES * len(run.assistants)):
-        axis.plot(series.time, series.error_norm, style, color=COLOURS[0], label=series.agent)
+    for series, style in zip(run.assistants, cycle(_STYLES)):
+        axis.plot(series.time, series.error_norm, **style, label=series.agent)
     axis.set_ylabel("error [m]")
-    axis.set_ylim(bottom=0.0)
+    start_at_zero(axis)
     if len(run.assistants) > 1:
         legend_above(axis, *axis.get_legend_handles_labels())
 
 
 def _plot_margins(axis, run: RunData) -> None:
-    axis.axhline(0.0, color=BLACK, linestyle="--", linewidth=0.8)
-    for series, style in zip(run.assistants, _STYLES * len(run.assistants)):
+    draw_limit(axis, 0.0)
+    for series, style in zip(run.assistants, cycle(_STYLES)):
         if "overstretch" in series.h:
-            axis.plot(series.time, series.h["overstretch"], style, color=COLOURS[2])
+            axis.plot(series.time, series.h["overstretch"], **style)
     axis.set_ylabel("overstretch\nmargin [m]")
+
+
+def _roles() -> List[Line2D]:
+    """Legend of the marks of the snapshots."""
+    style = {"linestyle": "none", "markersize": 4, "markeredgecolor": BLACK}
+    return [
+        Line2D([], [], marker=marker, color=colour, label=label, **style)
+        for marker, colour, label in (
+            ("s", _GREY, "leader"),
+            ("o", _GREY, "assistant"),
+            ("o", "white", "place to keep"),
+        )
+    ]

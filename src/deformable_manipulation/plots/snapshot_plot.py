@@ -13,12 +13,11 @@ from matplotlib.path import Path
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
 from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.plots.style import colour_of
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.timeseries import AXES
 from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
 
-# Okabe and Ito, in an order in which neighbours differ in lightness, too.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 GROUND, GROUND_EDGE = "#D9D9D9", "#808080"
 _PALENESS = 0.35  # of moving obstacles, beside the object's colour
 _MARGIN = 0.25  # m around the object's and the agents' ways
@@ -63,7 +62,7 @@ class SnapshotPlot:
             way = self._frames.agents[:, index, self._plane]
             self._axes.plot(*way.T, linestyle=":", linewidth=0.6, color="#606060", zorder=2)
         for number, time in enumerate(times):
-            frame, colour = self._frames.at(time), COLOURS[number % len(COLOURS)]
+            frame, colour = self._frames.at(time), colour_of(number)
             for obstacle in self._frames.obstacles_at(frame):
                 if obstacle.motion is not None:
                     self._draw_obstacle(obstacle, _pale(colour))

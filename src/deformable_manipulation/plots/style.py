@@ -20,6 +20,8 @@ ORANGE = "#E69F00"
 GREEN = "#009E73"
 VERMILLION = "#D55E00"
 MARGIN_LINES = ((GREEN, "-"), (ORANGE, "-."), (BLUE, "--"), (BLACK, ":"))
+# In an order in which neighbours differ in lightness, too.
+_SERIES = (BLUE, VERMILLION, GREEN, "#CC79A7", "#56B4E9", ORANGE, BLACK)
 VIOLATION = {"color": VERMILLION, "marker": "v", "markersize": 4, "linestyle": "none"}
 
 # Sizes in points, at COLUMN_WIDTH; papers ask for 8 or so.
@@ -48,6 +50,11 @@ STYLE = {
     "pdf.fonttype": 42,  # publishers refuse the default, type 3
     "ps.fonttype": 42,
 }
+
+
+def colour_of(number: int) -> str:
+    """The colour of one of several times, counted from 0; the first seven differ."""
+    return _SERIES[number % len(_SERIES)]
 
 
 def save_figure(figure: Figure, path) -> None:

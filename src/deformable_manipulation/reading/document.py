@@ -95,7 +95,7 @@ class _Outline:
             line = key.start_mark.line + 1
             key_path = path + (key.value,)
             if key.value in first_lines:
-                message = "is there twice, first on line {}; remove one of them".format(
+                message = "appears twice, first on line {}; remove one of the two".format(
                     first_lines[key.value]
                 )
                 self.duplicates.append(Problem(".".join(key_path), message, line=line))

@@ -66,7 +66,7 @@ class Problem:
 class ScenarioError(ValueError):
     """A scenario cannot be used; ``problems`` holds every mistake that was found.
 
-    ``source`` is the file, or empty where the scenario did not come from a file.
+    ``source`` is the file, or empty if the scenario did not come from a file.
     """
 
     def __init__(self, problems: Iterable[Problem], source: str = ""):

@@ -12,7 +12,7 @@ SPACE_ORIGIN = Array(3, _NUMBER, "[x, y, z]")
 
 
 def origin_beside(node: Node, length: int) -> Tuple[float, ...]:
-    """The origin in the section of a node; 0 where there is none, or one that is no point.
+    """The origin in the section of a node; 0 if there is none, or one that is no point.
 
     A mistake in it is reported where it is read itself.
     """

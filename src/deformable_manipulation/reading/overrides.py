@@ -46,7 +46,7 @@ def _replaced(container, path: KeyPath, depth: int, value):
         return copy
     if not isinstance(container, dict):
         raise _Refused(
-            "{} is {}, without keys of its own".format(".".join(path[:depth]), show(container))
+            "{} is {}, which has no keys".format(".".join(path[:depth]), show(container))
         )
     names = [key_text(name) for name in container]
     if depth == 1 and path[0] == "agents" and len(path) > 2 and key not in container:

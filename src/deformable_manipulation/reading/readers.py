@@ -91,13 +91,13 @@ def read_all(readings: Iterable[Callable[[], Any]]) -> List[Any]:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """A hint like " did you mean 'gain'?" for a mistyped word, empty where nothing is near."""
+    """A hint like " did you mean 'gain'?" for a mistyped word, empty if nothing is near."""
     matches = difflib.get_close_matches(word, list(known), n=1)
     return " did you mean '{}'?".format(matches[0]) if matches else ""
 
 
 def to_float(value) -> Optional[float]:
-    """The value as a float, None where it is no number; a number in a string is one."""
+    """The value as a float, None if it is no number; a number in a string is one."""
     if isinstance(value, bool) or not isinstance(value, (numbers.Real, str)):
         return None
     try:
@@ -392,9 +392,7 @@ class Section:
                 hint = nearest(name, self._known) or " remove it;"
                 node.report.add(
                     node.path + (name,),
-                    "is not a key of this place;{} known keys: {}".format(
-                        hint, ", ".join(self._known)
-                    ),
+                    "is not a key here;{} known keys: {}".format(hint, ", ".join(self._known)),
                 )
 
 

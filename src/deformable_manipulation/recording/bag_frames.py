@@ -42,7 +42,7 @@ def _read_scenario(path: Path, reader: Reader, namespace: str) -> Scenario:
     except (yaml.YAMLError, KeyError, TypeError, ScenarioError) as error:
         raise RunDataError(f"{path}: the scenario in it cannot be read: {error}") from error
     raise RunDataError(
-        f"{path} contains no {TOPIC}, which tells its scenario; record with record:=true"
+        f"{path} contains no {TOPIC}, which holds its scenario; record with record:=true"
     )
 
 
@@ -79,7 +79,7 @@ def _of_last_run(messages, every: int, read: Callable) -> dict:
 
 
 def _read_obstacles(reader: Reader, scenario: Scenario, namespace: str, cycles, every: int):
-    """Poses (F, K, 7) of the moving obstacles; None where none moves or nothing tells.
+    """Poses (F, K, 7) of the moving obstacles; None if none moves or they are not recorded.
 
     A cycle without distances has the poses of the one before.
     """

@@ -50,7 +50,7 @@ def read_bag(path: Path, namespace: Optional[str] = None) -> RunData:
 
 
 def _scenario_name(reader: Reader, namespace: str) -> str:
-    """The name of the scenario; empty where it is not told, or not in a way that can be read."""
+    """The name of the scenario; empty if it is missing or cannot be read."""
     try:
         return str(read_run_info(reader, namespace)["scenario"]["name"])
     except (yaml.YAMLError, KeyError, TypeError):
@@ -99,7 +99,7 @@ def _choose_namespace(path: Path, present: List[str], wanted: Optional[str]) -> 
 def _assemble(
     path: Path, distances: Track, controllers: List[Track], notes: Tuple[str, ...]
 ) -> RunData:
-    """The last run of the bag; ``distances`` tells which one that is."""
+    """The last run of the bag; ``distances`` identify it."""
     reference, runs = distances.last_run()
     if runs > 1:
         notes += (f"the bag holds {runs} runs (resets or restarts); this is the last",)

@@ -1,4 +1,4 @@
-"""What a bag tells about the run in it: the topic ``run_info``."""
+"""What a bag says about its run: the topic ``run_info``."""
 
 from typing import Any, List
 
@@ -31,7 +31,7 @@ def read_run_info(reader: Reader, namespace: str = "") -> Any:
 def connections_of(reader: Reader, msgtype: str, namespace: str) -> List[Connection]:
     """Those of a type within a namespace; where there are none, all of the type.
 
-    Topics that were recorded by relative names do not tell their namespace.
+    Topics that were recorded by relative names do not include their namespace.
     """
     every = [connection for connection in reader.connections if connection.msgtype == msgtype]
     return [each for each in every if namespace_of(each.topic) == namespace] or every

@@ -125,6 +125,6 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
 
 
 def _stacked(rows: Sequence[Mapping[str, float]]) -> Dict[str, np.ndarray]:
-    """Columns (M,) of all names in the rows; nan where a row lacks one."""
+    """Columns (M,) of all names in the rows; nan if a row lacks one."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}

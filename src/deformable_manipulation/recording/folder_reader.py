@@ -70,7 +70,7 @@ def _series_columns(agent: str, header: List[str]) -> List[str]:
 
 
 def _read_summary(path: Path) -> dict:
-    """The summary; empty where there is none, as of a run that was killed."""
+    """The summary; empty if there is none, as of a run that was killed."""
     try:
         summary = json.loads(read_text(path))
     except ValueError:  # also a TextFileError
@@ -79,7 +79,7 @@ def _read_summary(path: Path) -> dict:
 
 
 def _valid_stretch(summary: dict) -> float:
-    """What holds for rods where it is not told, as by earlier versions."""
+    """The value for rods if it is missing, as from earlier versions."""
     try:
         return float(summary["valid_stretch"])
     except (KeyError, ValueError, TypeError):
@@ -87,7 +87,7 @@ def _valid_stretch(summary: dict) -> float:
 
 
 def _scenario_name(summary: dict, path: Path) -> str:
-    """From the summary, or else the scenario's file; empty where neither tells it."""
+    """From the summary, or else the scenario's file; empty if neither has it."""
     try:
         return str(summary.get("scenario") or yaml.safe_load(read_text(path))["name"])
     except (TextFileError, yaml.YAMLError, KeyError, TypeError):

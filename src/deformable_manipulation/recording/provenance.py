@@ -10,7 +10,7 @@ PACKAGE = "deformable_manipulation"
 
 
 def package_version(start: Path = Path(__file__)) -> Optional[str]:
-    """The version in the package's ``package.xml``; None where that is not found.
+    """The version in the package's ``package.xml``; None if that is not found.
 
     Looks upwards from ``start``, which finds it in a source tree and, under ``share``, in an
     install space.

@@ -41,7 +41,7 @@ class RunData:
     assistants: Tuple[AssistantSeries, ...]
     max_stretch: Optional[float] = None  # largest relative change of length; None: not recorded
     valid_stretch: float = LARGEST_VALID_STRETCH  # of an object in use; beyond it nothing is valid
-    notes: Tuple[str, ...] = ()  # what a reader should know about how it was read
+    notes: Tuple[str, ...] = ()  # notes on how it was read
     scenario: str = ""  # its name; empty: not recorded
     namespace: str = ""  # of its topics in a bag, such as /left
 
@@ -60,7 +60,7 @@ def make_assistant_series(
     """Put together an assistant's series from arrays (M,) by their names in the time series."""
     status = columns["status"]
     if not np.all(np.isfinite(status)):
-        raise RunDataError(f"the status of {agent} is not a number in places")
+        raise RunDataError(f"the status of {agent} has values that are not numbers")
     return AssistantSeries(
         agent=agent,
         time=time,

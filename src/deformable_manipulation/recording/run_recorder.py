@@ -32,8 +32,8 @@ class RunRecorder:
     ):
         """Prepare the folder and write the scenario into it.
 
-        ``safety`` tells whether the safety filter is on; ``overwrite`` allows a folder that
-        already contains a run; ``start`` tells how the object rests at the start, see
+        ``safety`` says whether the safety filter is on; ``overwrite`` allows a folder that
+        already contains a run; ``start`` says how the object rests at the start, see
         ``_pbd.Simulation.rest``.
 
         Raises:

@@ -16,7 +16,7 @@ from deformable_manipulation.simulation.stretch import largest_stretch, valid_st
 
 _UNSTABLE_STARTS = {
     "moving": "the object still moved at the start",
-    "balanced": "the object started in a balance that may end with a fall or a snap",
+    "balanced": "the object started in an unstable balance: it may fall over or snap",
 }
 
 
@@ -28,7 +28,7 @@ def summarise(
     safety: bool,
     start: str,
 ) -> dict:
-    """The numbers of a run; None where there is none (no obstacle, nothing recorded).
+    """The numbers of a run; None if there is none (no obstacle, nothing recorded).
 
     ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,

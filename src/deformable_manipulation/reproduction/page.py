@@ -83,8 +83,17 @@ def _section(plan: Plan, name: str) -> Section:
         f"{millimetres(summary['min_distance'])} mm, offset {millimetres(summary['offset'])} mm."
     )
     paths = sorted(plan.figure_folder(name).glob("*.png"), key=_rank)
-    pictures = [_picture(path, path.stem.replace("_", " ")) for path in paths]
+    pictures = [_picture(path, _caption(path, name)) for path in paths]
     return Section(name, sentence, pictures)
+
+
+def _caption(path: Path, scenario: str) -> str:
+    if path.stem == "overview":
+        return "The whole run: shapes at some times, then distance, errors and margins over time"
+    if path.stem.startswith("controller_"):
+        agent = path.stem[len("controller_") :]
+        return f"What {agent} saw and did: distance, error, margins and velocities over time"
+    return f"{scenario} in RViz, with the distance to the obstacles at each time"
 
 
 def _rank(path: Path) -> Tuple[int, str]:

@@ -36,7 +36,7 @@ def agent_order(state, scenario) -> np.ndarray:
     rows = {name: row for row, name in enumerate(state.agents)}
     missing = [agent.name for agent in scenario.agents if agent.name not in rows]
     if missing:
-        raise MessageError(f"agents: without {', '.join(missing)}, which the scenario has")
+        raise MessageError(f"agents: {', '.join(missing)} of the scenario missing")
     return np.array([rows[agent.name] for agent in scenario.agents])
 
 

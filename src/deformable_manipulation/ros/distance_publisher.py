@@ -27,11 +27,11 @@ class Computed(NamedTuple):
     distances: DistanceFeatures  # of the core
     poses: np.ndarray  # (K, 7) of the moving obstacles
     computation_time: float  # s
-    fault: str  # why they are not known, as a clause; empty where they are
+    fault: str  # why they are not known, as a clause; empty if they are
 
 
 def known_distances(computed):
-    """The core's Distances of what was computed. Raises MessageError where they are not known."""
+    """The core's Distances of what was computed. Raises MessageError if they are not known."""
     if computed.fault:
         raise MessageError(computed.fault)
     return computed.distances
@@ -56,6 +56,7 @@ class DistancePublisher:
             node.refuse(f"The obstacles cannot be used: {error}")
         for warning in self._distance.warnings:
             rospy.logwarn(warning)
+        self._scenario = scenario
         self._obstacles = ObstacleTracker(scenario)
         self._frames = ObstacleFrames(scenario, prefix)
         self._latch = rospy.get_param("~lockstep", False)
@@ -110,4 +111,4 @@ class DistancePublisher:
 
     def _draw(self, distances, header, poses):
         self._frames.send(header, poses)
-        return distance_markers(distances, header)
+        return distance_markers(distances, header, self._scenario)

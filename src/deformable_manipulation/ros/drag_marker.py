@@ -107,7 +107,7 @@ class DragMarker:
         if feedback.header.frame_id != self._frame:
             self._warn(
                 f"The marker of {self._name} was moved in frame '{feedback.header.frame_id}'; "
-                f"only '{self._frame}' is taken."
+                f"only '{self._frame}' is allowed."
             )
             return
         place = feedback.pose.position

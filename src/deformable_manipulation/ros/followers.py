@@ -32,4 +32,4 @@ class Followers:
     def wait_text(self):
         """A sentence that says whom the leader waits for."""
         names = " and ".join(self.missing()) or "a state"
-        return f"The leader's path starts as soon as all assistants follow: waits for {names}."
+        return f"The leader's path starts when all assistants follow. Waiting for {names}."

@@ -1,9 +1,11 @@
-"""Whether everything that is to be seen of a state has been drawn."""
+"""Whether everything that shows a state has been drawn."""
 
 import threading
 
 import rospy
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
+
+from deformable_manipulation.ros.obstacle_markers import DISTANCE_LABELS
 
 
 class MarkerWatch:
@@ -20,6 +22,7 @@ class MarkerWatch:
         self._times = times
         self._lock = threading.Lock()
         self._drawn = {}  # stamp of the newest marker of each node
+        self._distance = ""
         self.expect(stamp)
         self._subscriber = rospy.Subscriber(self.topic, MarkerArray, self._count, queue_size=100)
 
@@ -28,6 +31,13 @@ class MarkerWatch:
         with self._lock:
             self._stamp = stamp
             self._redraws = {}
+            self._distance = ""
+
+    @property
+    def distance(self):
+        """The label of the state's distance to the obstacles; empty: none has been drawn."""
+        with self._lock:
+            return self._distance
 
     def missing(self, publishers):
         """Those of these nodes that have not drawn the state yet, everything that they draw."""
@@ -59,3 +69,6 @@ class MarkerWatch:
             self._drawn[node] = max(stamps, default=None)
             if self._stamp in stamps:
                 self._redraws[node] = self._redraws.get(node, 0) + 1
+                for marker in array.markers:
+                    if marker.ns == DISTANCE_LABELS and marker.action == Marker.ADD:
+                        self._distance = marker.text

@@ -9,6 +9,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
+from deformable_manipulation.geometry.lengths import millimetres
 from deformable_manipulation.geometry.mesh_files import scaled_mesh
 from deformable_manipulation.geometry.planes import PlaneFrame
 from deformable_manipulation.geometry.regions import oriented_polygons, oriented_rings
@@ -20,14 +21,17 @@ from deformable_manipulation.scenario.spec import MeshObstacle
 _MOST_TRIANGLES = 1000
 _FORMATS_OF_RVIZ = (".stl", ".dae", ".obj", ".ply")
 
-MOVING_OBSTACLES = "moving_obstacles"  # their namespace
+# Namespaces of markers.
+MOVING_OBSTACLES = "moving_obstacles"
+DISTANCE_LABELS = "distance_labels"
 
 _GROUND = np.array([0.80, 0.78, 0.74])  # red, green, blue
 _LINE = ColorRGBA(0.75, 0.0, 0.55, 1.0)
 _COPY_LINE = ColorRGBA(0.75, 0.0, 0.55, 0.35)
 _LINE_WIDTH, _COPY_LINE_WIDTH = 0.01, 0.004  # m
 _TEXT_HEIGHT = 0.08  # m
-_TEXT_DISTANCE = 0.2  # m from the object, on the side away from the obstacle
+# m from the object, on the side away from the obstacle; beyond the folds of a fabric
+_TEXT_DISTANCE, _TEXT_DISTANCE_OF_FABRIC = 0.2, 0.6
 
 # RViz lights from where the viewer is, which leaves what faces upwards dark. The colors have the
 # light in them instead: from above, a little from the front and the side.
@@ -126,16 +130,16 @@ def _triangles(polygon):
     return np.concatenate([shapely.get_coordinates(each)[:3] for each in counterclockwise])
 
 
-def distance_markers(distances, header):
+def distance_markers(distances, header, scenario):
     """The object's minimum distance, a line with its length, and thin lines for its copies'."""
     first = distances.offsets[:-1]
     first = first[first < distances.offsets[1:]]
     own = first[distances.offsets[0] == first]
     line = _marker(header, "distances", 0, Marker.LINE_LIST, _LINE)
-    text = _marker(header, "distances", 1, Marker.TEXT_VIEW_FACING, _LINE)
+    text = _marker(header, DISTANCE_LABELS, 0, Marker.TEXT_VIEW_FACING, _LINE)
     copy_lines = _marker(header, "copy_distances", 0, Marker.LINE_LIST, _COPY_LINE)
     _draw_lines(line, distances, own, _LINE_WIDTH)
-    _draw_length(text, distances, own)
+    _draw_length(text, distances, own, scenario)
     _draw_lines(copy_lines, distances, first[len(own) :], _COPY_LINE_WIDTH)
     return MarkerArray([line, text, copy_lines])
 
@@ -149,12 +153,14 @@ def _draw_lines(marker, distances, features, width):
     _delete_if_empty(marker, features)
 
 
-def _draw_length(marker, distances, features):
-    """The distance of a feature in words, on the object's free side."""
+def _draw_length(marker, distances, features, scenario):
+    """The distance of a feature and its limit in words, on the object's free side."""
     marker.scale.z = _TEXT_HEIGHT
+    away = _TEXT_DISTANCE_OF_FABRIC if scenario.object.is_surface else _TEXT_DISTANCE
+    limit = millimetres(scenario.controller.collision.offset)
     for feature in features:
-        marker.text = f"{distances.distance[feature]:.3f} m"
-        place = distances.object_point[feature] + _TEXT_DISTANCE * distances.normal[feature]
+        marker.text = f"{millimetres(distances.distance[feature])} (limit {limit})"
+        place = distances.object_point[feature] + away * distances.normal[feature]
         marker.pose.position = Point(*place)
     _delete_if_empty(marker, features)
 

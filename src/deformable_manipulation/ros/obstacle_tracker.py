@@ -68,7 +68,7 @@ class _Source:
         self.track = PoseTrack(self._timeout, 0.5 * scenario.cycle_time)
 
     def fault(self, now):
-        """Why there is no pose at a time [s], as a clause; empty where there is one."""
+        """Why there is no pose at a time [s], as a clause; empty if there is one."""
         fault = self.track.fault(now)
         return fault and f"obstacle '{self._obstacle.name}' is lost: {fault} {self._origin}"
 

@@ -7,11 +7,11 @@ from std_srvs.srv import SetBool, Trigger
 _OF_AN_ASSISTANT = (
     ("Start", "enable", SetBool, (True,)),
     ("Stop", "enable", SetBool, (False,)),
-    ("Keep the present place", "take_reference", Trigger, ()),
+    ("Keep the current place", "take_reference", Trigger, ()),
 )
 _OF_THE_RUN = (
     ("Pause", "pause", SetBool, (True,)),
-    ("Go on", "pause", SetBool, (False,)),
+    ("Continue", "pause", SetBool, (False,)),
     ("Reset", "reset", Trigger, ()),
 )
 

@@ -59,11 +59,14 @@ class SnapshotStudio:
     Attributes:
         run: the SteppedRun or PlayedRun, to be brought to the time of a picture.
         labels: texts in the scene, (place (3,) [m], text) of each.
+        distance: the newest picture's distance to the obstacles and its limit, in words; empty:
+            there is no obstacle.
     """
 
     def __init__(self, run, leader, display, directory):
         self.run = run
         self.labels = []
+        self.distance = ""
         self._leader = leader
         self._display = display
         self._directory = Path(directory)
@@ -155,6 +158,7 @@ class SnapshotStudio:
             lambda: f"nothing was rendered: {watch.describe(watch.missing(publishers))}",
             period=_FILM_PERIOD,
         )
+        self.distance = watch.distance
 
     def _await_rest(self, rviz, timeout, **options):
         look = PictureAtRest(self._display.pixels, **options)

@@ -86,7 +86,7 @@ def read_window_dump(data):
     header = dict(zip(_XWD_FIELDS, np.frombuffer(data, ">u4", count).tolist()))
     if header["version"] != _XWD_VERSION or header["bits_per_pixel"] != 32:
         raise ProgramError(
-            "The screen's window dump has version {version} and {bits_per_pixel} bits a pixel; "
+            "The screen's window dump has version {version} and {bits_per_pixel} bits per pixel; "
             "expected version 7 and 32 bits".format(**header)
         )
     start = header["header_size"] + _XWD_COLOR_SIZE * header["colors"]

@@ -23,7 +23,7 @@ class ClosedLoop:
 
     In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
     commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
-    those whose poses come from a topic or from tf stand where the scenario puts them.
+    those whose poses come from a topic or from tf stay where the scenario puts them.
 
     Raises:
         _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
@@ -32,7 +32,7 @@ class ClosedLoop:
     def __init__(self, scenario: Scenario, safety: bool = True):
         self._scenario = scenario
         perfect = scenario.knowledge.perfect
-        # Without barriers nobody asks for gradients; with imperfect knowledge those of a model.
+        # No gradients are needed without barriers; with imperfect knowledge the model has its own.
         copies = safety and perfect
         self._simulation = make_simulation(true_scenario(scenario), copies)
         self._distance = make_minimum_distance(scenario)
@@ -54,7 +54,7 @@ class ClosedLoop:
 
     @property
     def warnings(self) -> Tuple[str, ...]:
-        """Sentences on an unstable rest, and on a stiffness that the substeps cannot hold."""
+        """Sentences about an unstable start and a stiffness that the substeps cannot keep."""
         simulation = self._simulation
         return tuple(filter(None, (simulation.rest_warning, simulation.softness)))
 
@@ -69,7 +69,7 @@ class ClosedLoop:
         times with the fraction done.
 
         Raises:
-            _pbd.NonFiniteState: the simulation broke down; what happened is in the text.
+            _pbd.NonFiniteState: the simulation broke down; its text says what happened.
         """
         cycles = self._scenario.cycles
         report_every = max(1, cycles // _PROGRESS_REPORTS)

@@ -20,7 +20,7 @@ _LARGEST_SPEED = 2.0  # m/s, at which a model follows poses: PoseInbox::kMaxSpee
 class ImperfectController:
     """A controller that sees a model of the object instead of the object itself.
 
-    What it decides is told with the true places, distances and margins.
+    Its decisions are reported with the true places, distances and margins.
 
     Args:
         scenario: the scenario as it is assumed to be.
@@ -33,7 +33,7 @@ class ImperfectController:
         self._random = random
         self._dropped = scenario.knowledge.dropped_cycles
         self._timeout = scenario.controller.timeout
-        self._answered = 0.0  # s, time of the newest state that came
+        self._answered = 0.0  # s, time of the newest state that arrived
         self._decisions = controller.wait("no state has arrived yet")
         self._truths = {
             scenario.agents[index].name: _Truth(scenario, index, controller)
@@ -42,7 +42,7 @@ class ImperfectController:
         }
 
     def update(self, seen: Observation, truth: Observation) -> Dict[str, Decision]:
-        """Decide the velocities; where the state does not come, the last commands go on."""
+        """Decide the velocities; if the state does not arrive, repeat the last commands."""
         if self._random.random() >= self._dropped:
             self._answered = seen.time
             self._decisions = self._controller.update(seen)
@@ -79,7 +79,7 @@ class _Truth:
 
 
 class ImperfectKnowledge:
-    """What the controllers make of the agents' measured poses: a model of the object.
+    """The model of the object that the controllers derive from the agents' measured poses.
 
     The model is a simulation with the scenario's material. Its held points follow the measured
     poses, filtered and predicted over their delay, as those of a simulator whose agents are
@@ -141,7 +141,7 @@ class MeasuredPoses:
         cycles = knowledge.pose_delay / cycle_time
         self._noise = knowledge.pose_noise
         self._random = random
-        # Of the states at both ends of the cycle in which what comes now was measured.
+        # States at both ends of the cycle in which the newest poses were measured.
         self._weight = math.ceil(cycles) - cycles
         self._states = deque([start] * (math.ceil(cycles) + 1), math.ceil(cycles) + 1)
 

@@ -1,4 +1,4 @@
-"""What a correct scenario comes to at its start, and what in it is rarely meant."""
+"""A summary of a correct scenario at its start, and values that are probably not intended."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -6,13 +6,15 @@ from typing import Iterator, Tuple
 
 import numpy as np
 
+from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.corners import obstacle_corners
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.scenario.spec import PolygonObstacle, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
+from deformable_manipulation.simulation.observer import Observer
 
-_SIZES_APART = 100.0  # times the object: an obstacle of that size has rather another unit
+_SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
 _LARGE_PERTURBATION = 0.25  # of the free length between two agents
 _LARGE_MARGIN = 0.05  # of the free length between two agents
 _PATH_SAMPLES = 1000  # between waypoints, of which there are not many
@@ -21,7 +23,7 @@ _ROUNDING = 1.0 + 1e-6
 
 @dataclass(frozen=True)
 class Inspection:
-    """What is worth knowing before a run: facts, and what is allowed but rarely meant."""
+    """Facts worth knowing before a run, and values that are allowed but probably not intended."""
 
     facts: Tuple[str, ...]
     warnings: Tuple[str, ...]
@@ -32,7 +34,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
 
     Raises:
         _pbd.ParameterError: the object does not settle.
-        ValueError: an obstacle's shape is none.
+        ValueError: an obstacle's shape is invalid.
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
@@ -48,6 +50,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
         warnings += _unlikely_size(obstacle, corners, size)
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
+    facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
     warnings += _start_too_near(scenario, start)
     warnings += _path_warnings(scenario)
     warnings += _margin_warnings(scenario)
@@ -68,6 +71,28 @@ def _extent_of(obstacle, corners: np.ndarray) -> str:
     low, high = _bounds(corners)
     endless = ", endless across its plane" if isinstance(obstacle, PolygonObstacle) else ""
     return "obstacle {} reaches from {} to {} m{}".format(obstacle.name, low, high, endless)
+
+
+def _barriers(scenario: Scenario, observer: Observer) -> Iterator[str]:
+    """Each barrier in use: the lengths it keeps, and the h of each assistant at the start."""
+    observation = observer.observe()
+    starts = {}
+    for names in teams(scenario):
+        starts.update(TeamController(scenario, names, False).update(observation))
+    for name in scenario.controller.barriers:
+        section = getattr(scenario.controller, name)
+        lengths = [
+            "{} {:g} m".format(key, getattr(section, key))
+            for key in ("offset", "margin")
+            if hasattr(section, key)
+        ]
+        values = [
+            "{} {:.4g} m".format(agent, decision.h[name])
+            for agent, decision in starts.items()
+            if np.isfinite(decision.h[name])
+        ]
+        start = ", ".join(values) if values else "nothing to keep from"
+        yield "barrier {}: {}; h at the start: {}".format(name, ", ".join(lengths), start)
 
 
 def _unlikely_size(obstacle, corners: np.ndarray, size: float) -> Iterator[str]:
@@ -128,13 +153,15 @@ def _margin_warnings(scenario: Scenario) -> Iterator[str]:
     perturbation = max(map(abs, controller.perturbation))
     if perturbation > _LARGE_PERTURBATION * shortest:
         yield (
-            "controller.perturbation: {:g} m is large beside the {:.3g} m of object between two "
-            "agents. A tenth of that gives more local gradients".format(perturbation, shortest)
+            "controller.perturbation: {:g} m is large compared with the {:.3g} m of object between "
+            "two agents. A tenth of that length gives more local gradients".format(
+                perturbation, shortest
+            )
         )
     for name in controller.barriers:
         margin = getattr(getattr(controller, name), "margin", 0.0)
         if margin > _LARGE_MARGIN * shortest:
             yield (
-                "controller.{}.margin: {:g} m is large beside the {:.3g} m of object between two "
-                "agents".format(name, margin, shortest)
+                "controller.{}.margin: {:g} m is large compared with the {:.3g} m of object "
+                "between two agents".format(name, margin, shortest)
             )

@@ -53,17 +53,17 @@ class AgentSpec:
     )
     start: Vector = parameter(
         position(),
-        "Held point at the start. An assistant keeps its place relative to the leader's. On the "
-        "undeformed object, the default, two agents are a free length apart: the object is taut, "
-        "which the limit of 99 % (`controller.overstretch`) refuses. Give starts that are nearer "
-        "to each other.",
+        "Held point at the start. An assistant keeps its place relative to the leader's. By "
+        "default the object is undeformed, with a free length between two agents. It is then taut, "
+        "which is beyond the limit of 99 % (`controller.overstretch`): move the starts closer "
+        "together.",
         default=(0.0, 0.0, 0.0),
         default_text="the particle on the undeformed object",
         allowed="within the limits of each pair, see controller",
     )
     orientation: Quaternion = parameter(
         UnitQuaternion(),
-        "Of the held particle; a clamped one keeps it.",
+        "Orientation of the held particle. A clamped particle keeps it.",
         default=(0.0, 0.0, 0.0, 1.0),
         default_text="`object.pose.orientation`",
     )
@@ -78,8 +78,9 @@ Draft = Dict[str, Any]  # attributes of an AgentSpec that could be read; None: o
 def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
     """Read and check the ``agents`` section.
 
-    :param spec: the object, or None where it could not be read; then what depends on it is not
-        checked and Unreadable is raised.
+    Args:
+        spec: the object, or None if it could not be read; then what depends on it is not
+            checked and Unreadable is raised.
     """
     if not isinstance(node.value, dict) or not node.value:
         node.fail("must be a section with one section per agent, by name")
@@ -96,7 +97,7 @@ def _read_draft(node: Node, name) -> Draft:
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         agent.report.add(
             agent.path,
-            "is no name for an agent; use letters, digits and _, beginning with a letter",
+            "is not a valid agent name; use letters, digits and _, starting with a letter",
         )
     try:
         return AGENT.read_parts(agent)
@@ -137,7 +138,7 @@ def _particle_problem(particle: int, holder: Optional[str], spec) -> Optional[st
     if spec is not None and particle >= spec.particles:
         return "must be a particle of the object: 0 to {}".format(spec.particles - 1)
     if holder is not None:
-        return "is held by agent {} already; give each agent a particle of its own".format(holder)
+        return "is already held by agent {}; give each agent its own particle".format(holder)
     return None
 
 

@@ -59,7 +59,7 @@ class Priority:
     """An order of barriers; returns a tuple of their names."""
 
     type, unit, range = "list of text", "", "the name of each barrier in use once"
-    allowed = "a list of the names of the barriers in use, the last to yield first"
+    allowed = "a list of the names of the barriers in use; the first one yields last"
 
     def __call__(self, node: Node) -> Tuple[str, ...]:
         if not isinstance(node.value, (list, tuple)):
@@ -92,14 +92,14 @@ class _ControllerKeys:
     )
     priority: Optional[Tuple[str, ...]] = parameter(
         Priority(),
-        "Which limit yields to which where not all can hold: the first yields last.",
+        "Which limit yields when not all of them can hold: the first one yields last.",
         default=None,
         default_text="`[{}]`, those in use".format(", ".join(BARRIERS)),
         native=True,
     )
     rate: float = parameter(
         Number("Hz", at_least=0.1, at_most=10000.0),
-        "Commands per second. Lower it where the machine does not keep up.",
+        "Commands per second. Lower it if the machine does not keep up.",
         default=100.0,
     )
     gain: float = parameter(
@@ -144,8 +144,8 @@ class _ControllerKeys:
     )
     smoothing: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
-        "Time constant with which the departure from the nominal velocity changes where the limits "
-        "leave a choice. It keeps the command from jumping when other rows become active; limits "
+        "Time constant with which the deviation from the nominal velocity changes where the limits "
+        "leave a choice. It keeps the command from jumping when other rows become active. Limits "
         "still act at once. 0 switches it off.",
         default=0.2,
         paper=0.0,
@@ -154,11 +154,11 @@ class _ControllerKeys:
     )
     disturbance_filter: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
-        "Time constant of the disturbance observer. It measures how fast a distance falls beyond "
-        "what the gradients and known velocities explain: the object swings, lags behind or is of "
-        "another material, or nobody tells the obstacle's velocity. The rows count with that rate. "
-        "Raise it for noisy poses; 0 switches it off. The gradients of fabrics are too coarse for "
-        "it.",
+        "Time constant of the disturbance observer. It measures how much faster a distance falls "
+        "than the gradients and the known velocities explain, for example because the object "
+        "swings, its material differs, or the velocity of an obstacle is not known. The rows "
+        "include that rate. Raise it for noisy poses; 0 switches it off. The gradients of fabrics "
+        "are too coarse for it.",
         default=0.1,
         default_text="`0.1`; for fabrics `0`",
         paper=0.0,

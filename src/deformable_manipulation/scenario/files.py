@@ -19,7 +19,7 @@ _PAPER_SCENARIOS = (
 def scenario_names() -> List[str]:
     """Names of the scenarios in ``config/scenarios``, those of the paper first.
 
-    Raises FileNotFoundError where this package's files are not found.
+    Raises FileNotFoundError if this package's files are not found.
     """
     names = [path.stem for path in _scenario_folder().glob("*.yaml")]
     order = {name: place for place, name in enumerate(_PAPER_SCENARIOS)}
@@ -33,13 +33,13 @@ def _scenario_folder() -> Path:
 def find_scenario(path_or_name: str) -> Path:
     """The file of a scenario: a path, or the bare name of one in ``config/scenarios``.
 
-    Raises ScenarioError where there is none.
+    Raises ScenarioError if there is none.
     """
     path = Path(path_or_name)
     if os.path.isfile(path):
         return path
     if os.path.exists(path) and not os.path.isdir(path):
-        raise ScenarioError([Problem("", "is no regular file")], str(path_or_name))
+        raise ScenarioError([Problem("", "is not a regular file")], str(path_or_name))
     is_bare_name = len(path.parts) == 1 and path.suffix in ("", ".yaml")
     if not is_bare_name:
         raise ScenarioError([Problem("", "there is no such file")], str(path_or_name))
@@ -55,6 +55,6 @@ def find_scenario(path_or_name: str) -> Path:
 
 def _unknown_name(name: str, folder: Path) -> str:
     known = sorted(entry.stem for entry in folder.glob("*.yaml"))
-    return "there is no such file, and no scenario of this name;{} scenarios: {}".format(
+    return "there is no such file and no scenario with this name;{} scenarios: {}".format(
         nearest(name, known), ", ".join(known)
     )

@@ -67,7 +67,7 @@ def check_formulation(report: Report, controller: ControllerSpec) -> None:
         if given is not None and given != wanted:
             report.add(
                 ("controller", *path),
-                "must be {} with controller.formulation: paper; leave it out, or take formulation: "
+                "must be {} with controller.formulation: paper; leave it out, or use formulation: "
                 "full".format(show(wanted)),
                 show(given),
             )

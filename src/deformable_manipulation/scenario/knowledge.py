@@ -28,19 +28,21 @@ class KnowledgeSpec:
     )
     stiffness_factor: float = parameter(
         _FACTOR,
-        "True over assumed stiffness: moduli of a rod, 1 / compliances of a fabric.",
+        "True stiffness divided by the assumed one: moduli of a rod, 1 / compliances of a fabric.",
         default=1.0,
     )
-    density_factor: float = parameter(_FACTOR, "True over assumed density.", default=1.0)
+    density_factor: float = parameter(
+        _FACTOR, "True density divided by the assumed one.", default=1.0
+    )
     dropped_cycles: float = parameter(
         Number("1", at_least=0.0, at_most=0.99),
-        "Probability that a controller gets no new state in a cycle. Its last command goes on, for "
-        "at most `controller.timeout`.",
+        "Probability that a controller gets no new state in a cycle. It repeats its last command "
+        "for at most `controller.timeout`.",
         default=0.0,
     )
     seed: int = parameter(
         Integer(0, 2**31 - 1),
-        "Of noise and drops. The same seed gives the same run.",
+        "Seed of the noise and the drops. The same seed gives the same run.",
         default=0,
     )
 

@@ -27,11 +27,13 @@ SCENARIO = Section(Scenario, defaults={"obstacles": ()})
 def load_scenario(path_or_name: Union[str, Path], overrides: Iterable[Override] = ()) -> Scenario:
     """Read and check a scenario.
 
-    :param path_or_name: a YAML file, or the bare name of a scenario in ``config/scenarios``.
-    :param overrides: (key path, value as YAML text) pairs that replace values of the file, list
-        items by index: ``("leader.waypoints.1.time", "3")``.
+    Args:
+        path_or_name: a YAML file, or the bare name of a scenario in ``config/scenarios``.
+        overrides: (key path, value as YAML text) pairs that replace values of the file, list
+            items by index: ``("leader.waypoints.1.time", "3")``.
 
-    Raises ScenarioError with all problems found.
+    Raises:
+        ScenarioError: with all problems found.
     """
     overrides = tuple(overrides)
     path = find_scenario(str(path_or_name))
@@ -52,13 +54,15 @@ def scenario_from_mapping(
 ) -> Scenario:
     """Check a scenario given as plain values, such as the ``scenario`` parameter of a node.
 
-    :param mapping: what the YAML file would hold.
-    :param directory: where relative file names start.
-    :param default_name: name of a scenario that has none of its own.
-    :param files_are_read: the mapping is a checked one (:func:`scenario_to_mapping`); the files
-        that it names are not read once more.
+    Args:
+        mapping: what the YAML file would hold.
+        directory: where relative file names start.
+        default_name: name of a scenario that has none of its own.
+        files_are_read: the mapping is a checked one (:func:`scenario_to_mapping`); the files
+            that it names are not read once more.
 
-    Raises ScenarioError with all problems found.
+    Raises:
+        ScenarioError: with all problems found.
     """
     root = Node(mapping, (), Report(), Path(directory), files_are_read)
     return _read_scenario(root, default_name, "")
@@ -67,10 +71,12 @@ def scenario_from_mapping(
 def with_controller(scenario: Scenario, section: Mapping[str, Any]) -> Scenario:
     """A scenario with another section ``controller``, checked as the whole would be.
 
-    :param section: as :func:`~deformable_manipulation.scenario.mapping.controller_to_mapping` gives
-        it: with every key that depends on the object.
+    Args:
+        section: as :func:`~deformable_manipulation.scenario.mapping.controller_to_mapping` gives
+            it: with every key that depends on the object.
 
-    Raises ScenarioError with all problems found.
+    Raises:
+        ScenarioError: with all problems found.
     """
     parts = {field.name: getattr(scenario, field.name) for field in dataclasses.fields(scenario)}
     report = Report()

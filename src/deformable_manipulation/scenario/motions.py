@@ -78,8 +78,9 @@ class TopicMotion:
 
     topic: str = parameter(
         _TOPIC,
-        "`geometry_msgs/PoseStamped` of the obstacle's frame in the fixed frame, from a tracker or "
-        "from whoever moves it, by hand in RViz for example. Relative to the namespace of the run.",
+        "Topic with the pose of the obstacle's frame in the fixed frame "
+        "(`geometry_msgs/PoseStamped`), from a tracker or from a marker dragged in RViz, for "
+        "example. Relative to the namespace of the run.",
     )
 
 
@@ -88,7 +89,7 @@ class FrameMotion:
     """An obstacle that is where a tf frame is."""
 
     frame: str = parameter(
-        FRAME, "The obstacle's frame is where this one is.", allowed="not the fixed frame"
+        FRAME, "The obstacle's frame follows this tf frame.", allowed="not the fixed frame"
     )
 
 
@@ -131,7 +132,6 @@ def check_frames(report: Report, frame: str, obstacles) -> None:
         if isinstance(obstacle.motion, FrameMotion) and obstacle.motion.frame == frame:
             report.add(
                 ("obstacles", str(index), "motion", "frame"),
-                "must be another frame than the fixed one; leave motion out for an obstacle that "
-                "stands",
+                "must not be the fixed frame; leave motion out for an obstacle that stands still",
                 show(frame),
             )

@@ -128,8 +128,8 @@ class _PolygonOrigin:
 
     origin: Optional[Sequence[float]] = parameter(
         PLANE_ORIGIN,
-        "`[a, b]` that is taken off all points of `polygon`: for maps, whose coordinates are far "
-        "from 0.",
+        "`[a, b]`, subtracted from all points of `polygon`. Use it for maps, whose coordinates are "
+        "far from 0.",
         default=None,
         default_text="`[0.0, 0.0]`",
     )
@@ -157,8 +157,8 @@ class MeshObstacle:
     )
     origin: Vector = parameter(
         SPACE_ORIGIN,
-        "Taken off all vertices of the file, in its units (m for COLLADA and 3MF): for files whose "
-        "coordinates are far from 0.",
+        "Subtracted from all vertices of the file, in its units (m for COLLADA and 3MF). Use it "
+        "for files whose coordinates are far from 0.",
         default=(0.0, 0.0, 0.0),
     )
     motion: Optional[Motion] = _MOTION
@@ -193,7 +193,7 @@ def _read_polygon(node: Node) -> PolygonObstacle:
             raise Unreadable
         del parts[ORIGIN_KEY]
         return PolygonObstacle(**parts)
-    node.report.add(node.path + ("mesh",), "does not go with polygon; remove one of the two")
+    node.report.add(node.path + ("mesh",), "cannot be combined with polygon; remove one of the two")
     others = {key: item for key, item in node.value.items() if key not in ("mesh", "scale")}
     POLYGON_OBSTACLE.read_parts(dataclasses.replace(node, value=others))
     raise Unreadable
@@ -223,7 +223,7 @@ def _check_names(node: Node) -> None:
         if isinstance(name, str) and name in seen:
             node.report.add(
                 node.path + (str(index), "name"),
-                "is the name of another obstacle already; give each its own",
+                "is already the name of another obstacle; give each its own name",
                 show(name),
             )
         seen.append(name)

@@ -80,13 +80,14 @@ SIMULATION = Section(SimulationSpec, defaults={"substeps": None, "solver": None}
 def for_object(report: Report, simulation: SimulationSpec, spec) -> SimulationSpec:
     """The section with what depends on the object filled in; what is not of it is reported.
 
-    :param simulation: as read, with None for what is not given.
-    :param spec: the object.
+    Args:
+        simulation: as read, with None for what is not given.
+        spec: the object.
     """
     if simulation.solver is not None and not spec.has_joints:
         report.add(
             ("simulation", "solver"),
-            "is of a rod's joints; remove it",
+            "applies only to rods; remove it",
             show(simulation.solver),
         )
     filled = {}

@@ -116,7 +116,7 @@ class Workspace:
         box = WORKSPACE(node)
         for axis, low, high in zip("xyz", box.lower, box.upper):
             if low >= high:
-                node.fail("must have its lower corner below its upper one; not so in " + axis)
+                node.fail(f"must have its lower corner below its upper one in {axis}")
         return box
 
 

@@ -1,1 +1,1 @@
-"""The simulated object of a scenario, and what is to be seen of it."""
+"""The simulated object of a scenario, and observations of it."""

@@ -24,9 +24,11 @@ def perturbations(scenario: Scenario):
 def make_simulation(scenario: Scenario, copies: bool = True) -> _pbd.Simulation:
     """The object, settled between the agents at their starts.
 
-    :param copies: with its perturbed copies, or without.
+    Args:
+        copies: with its perturbed copies, or without.
 
-    Raises _pbd.ParameterError: a parameter is out of range.
+    Raises:
+        _pbd.ParameterError: a parameter is out of range.
     """
     agents = [
         (agent.name, agent.particle, agent.hold, agent.start, agent.orientation)

@@ -1,4 +1,4 @@
-"""What is to be seen of a simulated object."""
+"""Observations of a simulated object."""
 
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
@@ -18,7 +18,7 @@ class Observer:
         self._simulation = simulation
         self._distance = distance
         self._exact = copies and scenario.controller.jacobian == "equilibrium"
-        self._points = simulation.points()  # to be used again
+        self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
 
     def observe(self) -> Observation:
@@ -47,7 +47,7 @@ class Observer:
         return self._obstacles.poses()
 
     def _sensitivities(self):
-        """Exact response of the object, where it is wanted and known; else None."""
+        """Exact response of the object, if it is wanted and known; else None."""
         if not self._exact:
             return None
         response = self._simulation.response()

@@ -1,4 +1,4 @@
-"""Whether an object is as large as its material makes it, or was torn beyond what is simulated."""
+"""Whether an object keeps its size, or is stretched so far that its simulation is not valid."""
 
 import math
 from typing import Optional
@@ -9,7 +9,7 @@ from deformable_manipulation.scenario.spec import Scenario
 
 
 class StretchGauge:
-    """Tells the relative change of length of the edge of an object that is changed most.
+    """Measures the largest relative change of length of an edge of an object.
 
     Edges are a rod's segments, and a fabric's sides of triangles.
 
@@ -25,7 +25,8 @@ class StretchGauge:
     def measure(self, points: np.ndarray) -> float:
         """The largest change [1], with its sign.
 
-        :param points: (P, 3) geometry points [m].
+        Args:
+            points: (P, 3) geometry points [m].
         """
         edges = points.take(self._second, axis=0) - points.take(self._first, axis=0)
         ratios = np.einsum("ei,ei->e", edges, edges) / self._squared_lengths
@@ -35,11 +36,11 @@ class StretchGauge:
 
 
 def valid_stretch(scenario: Scenario) -> float:
-    """The largest relative change of length [1] that the scenario's object in use has."""
+    """The largest relative change of length [1] at which the scenario's object is valid."""
     return scenario.object.valid_stretch(scenario.simulation.gravity)
 
 
 def largest_stretch(stretches: np.ndarray) -> Optional[float]:
-    """The largest size of the changes of length of a run [1], None where there is none."""
+    """The largest size of the changes of length of a run [1], None if there is none."""
     finite = stretches[np.isfinite(stretches)]
     return float(np.abs(finite).max()) if finite.size else None

@@ -10,7 +10,7 @@ _PACKAGE_SCHEME = "package://"
 def package_share_directory() -> Path:
     """The directory that holds ``config/``: of the checkout, or ``share/`` of an install space.
 
-    Raises FileNotFoundError where there is neither and the ROS package path does not know it.
+    Raises FileNotFoundError if there is neither and the ROS package path does not know it.
     """
     for parent in Path(__file__).resolve().parents:
         for candidate in (parent, parent / "share" / PACKAGE):
@@ -48,7 +48,7 @@ def ros_package(name: str) -> Optional[Path]:
 def resolve_file(text: str, directory: Path) -> Path:
     """The path that a scenario's text means: relative to ``directory``, absolute or package://.
 
-    Raises FileNotFoundError where the package is unknown; the file itself need not exist.
+    Raises FileNotFoundError if the package is unknown; the file itself need not exist.
     """
     if not text.startswith(_PACKAGE_SCHEME):
         return directory / text

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 from PIL import Image
 
 from deformable_manipulation.plots.style import BLACK, BLUE, GREEN, ORANGE, STYLE, VERMILLION
@@ -18,16 +19,18 @@ PANEL_SIZE = (4.2, 2.9)  # in
 COLUMNS = 2
 COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, "#CC79A7", "#56B4E9")
 MARKS = ("o", "s", "^", "v", "D", "x")
+_DECADES = 100.0  # ratio of the ends of an axis; longer ones have powers of ten
 SIZES = {"font.size": 8, "axes.labelsize": 8, "legend.fontsize": 7, "lines.linewidth": 1.0}
 
 
 def draw(case: CaseResult) -> Figure:
     """Draw all panels of a case."""
-    rows = -(-len(case.panels) // COLUMNS)
+    columns = min(COLUMNS, len(case.panels))
+    rows = -(-len(case.panels) // columns)
     with rc_context({**STYLE, **SIZES}):
-        figure = Figure(figsize=(COLUMNS * PANEL_SIZE[0], rows * PANEL_SIZE[1]))
+        figure = Figure(figsize=(columns * PANEL_SIZE[0], rows * PANEL_SIZE[1]))
         for index, panel in enumerate(case.panels):
-            _draw_panel(figure.add_subplot(rows, COLUMNS, index + 1), panel)
+            _draw_panel(figure.add_subplot(rows, columns, index + 1), panel)
         figure.tight_layout()
     return figure
 
@@ -56,9 +59,21 @@ def _draw_panel(axes: Axes, panel: Panel) -> None:
     axes.set_ylabel(panel.y_label)
     axes.set_xscale(panel.x_scale)
     axes.set_yscale(panel.y_scale)
+    if panel.x_scale == "log":
+        _tell_decimals(axes)
     if panel.equal:
         axes.set_aspect("equal", adjustable="datalim")
     axes.legend()
+
+
+def _tell_decimals(axes: Axes) -> None:
+    """Numbers such as 45 along a logarithmic axis of less than two decades, not powers of ten."""
+    low, high = axes.get_xlim()
+    if high / low < _DECADES:
+        ticks = [digit * 10.0**power for power in range(-4, 5) for digit in (1, 2, 5)]
+        axes.set_xticks([tick for tick in ticks if low <= tick <= high])
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _draw_marks(axes: Axes, curve: Curve, index: int) -> None:

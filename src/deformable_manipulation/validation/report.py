@@ -61,7 +61,7 @@ def _summary(cases: Dict[str, CaseResult]) -> str:
 
 
 def _nearness(check: Check) -> float:
-    """Error over tolerance; infinite where the check fails for any reason."""
+    """Error over tolerance; infinite if the check fails for any reason."""
     return check.error / check.tolerance if check.passed else float("inf")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 class Check:
     """One compared quantity; a row of the table.
 
-    ``theory`` is None where the measured number is itself an error. ``error`` and ``tolerance``
+    ``theory`` is None if the measured number is itself an error. ``error`` and ``tolerance``
     have the unit ``error_unit``; a case passes while the error is at most the tolerance.
     """
 

@@ -104,7 +104,7 @@ def hang(
 def settle(rod, substeps: int = SUBSTEPS, speed: float = 1e-9, time_limit: float = 600.0) -> None:
     """Step until the rod rests: nothing moves or turns faster than ``speed`` [m/s].
 
-    ``time_limit`` [s] is simulated time. Raises RuntimeError where it moves longer than that.
+    ``time_limit`` [s] is simulated time. Raises RuntimeError if it moves longer than that.
     """
     if not rod.settle(TIME_STEP, substeps, speed, time_limit):
         raise RuntimeError(f"the rod still moves after {time_limit:g} s")

@@ -207,7 +207,7 @@ def test_reasons_why_there_are_no_files(tmp_path, capsys):
     assert main(["my_own", "--output", str(tmp_path / "file" / "below")]) == 1
     assert "Not a directory" in capsys.readouterr().err
     assert main(["my_own", "--from", "absent", "--output", str(tmp_path)]) == 1
-    assert "no scenario of this name" in capsys.readouterr().err
+    assert "no scenario with this name" in capsys.readouterr().err
     (tmp_path / "package.xml").write_text("<package/>")
     assert main(["my_own", "--output", str(tmp_path)]) == 1
     assert "does not contain the name of the package" in capsys.readouterr().err

@@ -63,7 +63,7 @@ def test_without_the_filter_the_campaign_is_not_acceptable(tmp_path):
 
 def test_an_older_campaign_is_not_overwritten(folder, capsys):
     assert run_campaign.main([*SHORT, "--runs", "1", "--output", str(folder)]) == 1
-    assert "holds a campaign already" in capsys.readouterr().err
+    assert "already holds a campaign" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -210,4 +210,4 @@ def test_an_interrupted_campaign_says_what_it_kept(tmp_path, monkeypatch, capsys
         assert len(outcomes(folder)) == 1
         assert f"only 1 of 3 runs were done. They are kept in {folder / 'runs.csv'}" in last
     else:
-        assert last == "run_campaign: no run had ended: nothing is kept"
+        assert last == "run_campaign: no run had finished, so nothing is kept"

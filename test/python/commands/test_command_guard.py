@@ -58,7 +58,7 @@ def test_a_library_that_is_not_installed_is_named(monkeypatch, capfd):
     command.main = lambda arguments: importlib.import_module("no_such_library")
     monkeypatch.setitem(sys.modules, "deformable_manipulation.commands.a_command", command)
     assert run_command("a_command", []) == 1
-    message = "a_command: the Python module 'no_such_library' is needed and not installed\n"
+    message = "a_command: the Python module 'no_such_library' is needed but not installed\n"
     assert capfd.readouterr().err == message
 
 

@@ -59,11 +59,11 @@ def test_late(cycles, clock):
     answer(cycles, clock, 99, seconds=0.99)
     answer(cycles, clock, 1, latency=0.011, seconds=0.01)
     report = cycles.report()
-    assert (report.level, report.text) == (Level.WARN, "1 of 100 answers came later than a cycle.")
+    assert (report.level, report.text) == (Level.WARN, "1 of 100 answers took longer than a cycle.")
     answer(cycles, clock, 100, latency=0.02)
     report = cycles.report()
     assert report.level is Level.ERROR
-    assert report.values["answers later than a cycle, total"] == "101"
+    assert report.values["answers that took longer than a cycle, total"] == "101"
     answer(cycles, clock, 100)
     assert cycles.report().level is Level.OK
 

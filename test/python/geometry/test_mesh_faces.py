@@ -179,7 +179,7 @@ def test_3mf_is_in_metres_and_placed_by_its_components(tmp_path):
 
 
 def test_reasons_of_3mf(tmp_path):
-    with pytest.raises(MeshError, match="its unit is 'parsec'; allowed are micron"):
+    with pytest.raises(MeshError, match="its unit is 'parsec'; allowed: micron"):
         read_mesh(three_mf(tmp_path, unit="parsec"))
     with pytest.raises(MeshError, match="a transform has 3 numbers, not 12"):
         read_mesh(three_mf(tmp_path, transform="1 2 3"))

@@ -112,7 +112,7 @@ def test_never_leaves_the_range_of_the_waypoints_nor_twice_the_mean_speed(pieces
         ((), "empty"),
         ((Waypoint(1.0, (0, 0, 0)), Waypoint(1.0, (1, 0, 0))), r"waypoints\[1\].time: 1"),
         ((Waypoint(0.0, (0, 0, np.nan)),), "finite"),
-        ((Waypoint(0.0, (0, 0)),), r"waypoints\[0\].position: \(0, 0\), allowed are three"),
+        ((Waypoint(0.0, (0, 0)),), r"waypoints\[0\].position: \(0, 0\) must be three"),
         ((Waypoint(0.0, (0, 0, 0)), Waypoint(1.0, 2.0)), r"waypoints\[1\].position: 2.0"),
         ((Waypoint(0.0, ((0, 0, 0),)),), r"waypoints\[0\].position"),
     ],

@@ -120,7 +120,7 @@ def test_stays_in_the_workspace(by_hand, scenario):
 @pytest.mark.parametrize("take", ["drag", "steer"])
 @pytest.mark.parametrize("values", [(0.0, np.nan, 0.0), (np.inf, 0.0, 0.0), (1.0, 2.0)])
 def test_what_is_not_three_finite_numbers_is_refused_and_changes_nothing(by_hand, take, values):
-    with pytest.raises(ValueError, match="allowed are three finite numbers"):
+    with pytest.raises(ValueError, match="must be three finite numbers"):
         getattr(by_hand.leader, take)(values)
     assert by_hand.leader.source == RESTING
 

@@ -54,7 +54,7 @@ def test_specks_are_no_scene():
 
 
 def looks(pictures):
-    """PictureAtRest that sees one picture after the other, and the last for ever."""
+    """PictureAtRest that sees one picture after the other, and the last forever."""
     pictures = iter(pictures)
     last = None
 

@@ -116,6 +116,15 @@ def test_no_violation_no_mark():
     assert figure_legend(figure) == []
 
 
+def test_the_limit_is_told():
+    assert labels(plot(make_run()).axes[0])[1] == "limit 50 mm"
+
+
+def test_rounding_errors_look_like_zero():
+    error = plot(make_run(error_norm=np.full(100, 1e-9))).axes[1]
+    assert error.get_ylim() == (0.0, 0.01)
+
+
 def test_far_distances_do_not_hide_near_ones():
     distance = np.linspace(0.04, 3.0, 100)
     axis = plot(make_run(distance)).axes[0]
@@ -188,3 +197,8 @@ def test_formats(tmp_path, ending, magic):
 def test_pdf_fonts_are_of_a_type_that_publishers_accept(tmp_path):
     save_figure(plot(make_run()), tmp_path / "figure.pdf")
     assert b"/Type3" not in (tmp_path / "figure.pdf").read_bytes()
+
+
+def test_a_barrier_of_any_name_has_its_margin():
+    figure = plot(make_run(h={"workspace": np.full(100, 0.02)}))
+    assert labels(figure.axes[2]) == ["workspace (min 20 mm)"]

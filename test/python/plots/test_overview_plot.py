@@ -50,6 +50,27 @@ def test_every_assistant_has_its_error(run):
         )
 
 
+def test_colours_are_of_times_alone(run):
+    figure = plot_overview(run, read_frames(run), [0.5, 1.5])
+    times = {line.get_color() for line in figure.axes[0].get_legend().get_lines()}
+    series = {
+        line.get_color()
+        for panel in figure.axes[1:]
+        for line in panel.get_lines()
+        if len(line.get_xdata()) == len(run.time)
+    }
+    assert len(times) == 2 and series and not times & series
+
+
+def test_the_lowest_distance_and_its_limit_are_told(run):
+    texts = plot_overview(run, read_frames(run)).axes[1].get_legend().get_texts()
+    lowest = 1e3 * run.distance.min()
+    assert [text.get_text() for text in texts] == [
+        f"distance (min {lowest:.3g} mm)",
+        "limit 50 mm",
+    ]
+
+
 def test_telling_times_are_the_start_and_the_lowest_distance(run):
     times = snapshot_times(run)
     assert times == sorted(times) and times[0] == 0.0 and len(times) <= 4

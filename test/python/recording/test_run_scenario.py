@@ -190,7 +190,7 @@ def test_a_start_that_is_no_stable_rest_is_told(loop, scenario_file, output, cap
     assert main([scenario_file, "--output", str(output)]) == 0
     printed = capsys.readouterr()
     assert "WARNING: It may fall over." in printed.err
-    assert "WARNING: the object started in a balance" in printed.out
+    assert "WARNING: the object started in an unstable balance" in printed.out
     assert json.loads((output / "summary.json").read_text())["start"] == "balanced"
 
 

@@ -49,6 +49,11 @@ def test_pictures_are_within_the_page(report):
     assert not re.search(r'src="(?!data:)', report)
 
 
+def test_pictures_have_captions(report):
+    overview, controller = re.findall("<figcaption>(.*?)</figcaption>", report)
+    assert overview.startswith("The whole run") and "assistant_1 saw and did" in controller
+
+
 def test_the_papers_scenarios_come_first():
     assert set(scenario_names()[:4]) >= set(PUBLISHED)
 

@@ -6,6 +6,7 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from deformable_manipulation.ros import marker_watch
+from deformable_manipulation.ros.obstacle_markers import DISTANCE_LABELS
 
 STATE = Time(7, 500000000)
 
@@ -38,3 +39,18 @@ def test_what_they_drew_instead(watch):
     assert watch.describe(["/late"]) == "/late drew another state, -0.010 s away"
     assert watch.describe(["/once"]) == "/once drew the state, but not again"
     assert watch.describe(["/empty", "/silent"]) == "/empty drew nothing, /silent drew nothing"
+
+
+def test_the_distance_is_that_of_the_state(watch):
+    def draw_label(stamp, action, text):
+        label = Marker(header=Header(stamp=stamp), ns=DISTANCE_LABELS, action=action, text=text)
+        array = MarkerArray([label])
+        array._connection_header = {"callerid": "/assistants"}
+        watch._count(array)
+
+    draw_label(Time(7, 490000000), Marker.ADD, "70 mm (limit 50 mm)")
+    draw_label(STATE, Marker.DELETE, "")
+    assert watch.distance == ""
+    draw_label(STATE, Marker.ADD, "52 mm (limit 50 mm)")
+    draw_label(Time(0), Marker.ADD, "71 mm (limit 50 mm)")
+    assert watch.distance == "52 mm (limit 50 mm)"

@@ -125,14 +125,16 @@ def straight_ropes(heights):
 def test_the_minimum_distances_are_drawn(scenario):
     distances = make_minimum_distance(scenario).compute(straight_ropes([0.6, 0.7, 0.8]))
     header = Header(frame_id="map", seq=3)
-    line, text, copies = distance_markers(distances, header).markers
+    line, text, copies = distance_markers(distances, header, scenario).markers
     assert all(marker.action == Marker.ADD for marker in (line, text, copies))
     assert all(marker.header == header for marker in (line, text, copies))
     start, end = (np.array([p.x, p.y, p.z]) for p in line.points)
     radius = scenario.object.radius
     length = np.linalg.norm(end - start)
     assert length == pytest.approx(distances.minimum[0], abs=1.01 * radius)
-    assert text.text == f"{distances.minimum[0]:.3f} m"
+    lowest = 1e3 * distances.minimum[0]
+    assert scenario.controller.collision.offset == 0.05
+    assert text.text == f"{lowest:.0f} mm (limit 50 mm)" and lowest > 100.0
     assert text.pose.position.z > start[2]
     assert len(copies.points) == 4
     assert len({(marker.ns, marker.id) for marker in (line, text, copies)}) == 3
@@ -140,5 +142,5 @@ def test_the_minimum_distances_are_drawn(scenario):
 
 def test_what_is_no_longer_there_is_deleted(scenario):
     distances = make_minimum_distance(scenario).compute(straight_ropes([0.6]))
-    _, _, copies = distance_markers(distances, Header()).markers
+    _, _, copies = distance_markers(distances, Header(), scenario).markers
     assert copies.action == Marker.DELETE

@@ -38,12 +38,12 @@ WRONG_VALUES = [
     ("object.thickness", "thin", "a number > 0 and <= 1 [m]"),
     ("object.stretching_compliance", -1e-9, "a number >= 0 and <= 1e+06 [m/N]"),
     ("object.bending_compliance", None, "a number >= 0 and <= 1e+12 [1/(N m)]"),
-    ("object.mesh", 3, "does not go with mesh"),
-    ("object.scale", 2.0, "is of a mesh file"),
+    ("object.mesh", 3, "cannot be combined with mesh"),
+    ("object.scale", 2.0, "applies only to mesh files"),
     ("object.segments", 3, "known keys: type, material, size, resolution, mesh"),
     ("agents.helper.particle", 25, "0 to 24"),
     ("agents.helper.start", [1.1, 0.0, 1.0], "beyond the free length 1 m"),
-    ("simulation.solver", "direct", "of a rod's joints; remove it"),
+    ("simulation.solver", "direct", "applies only to rods; remove it"),
     ("simulation.substeps", "many", "or auto"),
 ]
 

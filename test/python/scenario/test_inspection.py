@@ -24,6 +24,32 @@ def test_nothing_unusual(mapping):
     assert "distance from the obstacles at the start: " in facts
 
 
+def test_the_barriers_in_use(mapping):
+    mapping["controller"]["workspace"] = {"lower": [-50.0, -50.0, -50.0], "margin": 0.03}
+    inspection = inspected(mapping)
+    barriers = {
+        line.split(":")[0]: line for line in inspection.facts if line.startswith("barrier ")
+    }
+    assert list(barriers) == [
+        "barrier {}".format(name)
+        for name in scenario_from_mapping(mapping, ".").controller.barriers
+    ]
+    assert "margin 0.03 m; h at the start: " in barriers["barrier workspace"]
+    offset = mapping["controller"]["collision"]["offset"]
+    assert "offset {:g} m".format(offset) in barriers["barrier collision"]
+    (distance,) = (line for line in inspection.facts if line.startswith("distance from"))
+    start = float(distance.split(": ")[1].split()[0])
+    h = float(barriers["barrier collision"].split()[-2])
+    assert h == pytest.approx(start - offset, abs=1e-3)
+
+
+def test_barriers_without_anything_to_keep_from(mapping):
+    mapping["obstacles"] = []
+    facts = inspected(mapping).facts
+    (collision,) = (line for line in facts if line.startswith("barrier collision"))
+    assert collision.endswith("nothing to keep from")
+
+
 def test_an_obstacle_in_millimetres(mapping, tmp_path):
     (tmp_path / "sheet.obj").write_text(
         "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nv 0 0 -1000\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
@@ -62,7 +88,7 @@ def test_a_modulus_in_megapascals(mapping, key):
 
 def test_margins_that_do_not_fit_a_small_object(mapping):
     mapping["controller"]["perturbation"] = [0.1, 0.1, 0.5]
-    assert "controller.perturbation: 0.5 m is large beside" in only_warning(mapping)
+    assert "controller.perturbation: 0.5 m is large compared with" in only_warning(mapping)
     mapping["controller"]["perturbation"] = [0.1, 0.1, 0.1]
     mapping["controller"].setdefault("overstretch", {})["margin"] = 0.1
     assert "controller.overstretch.margin: 0.1 m is large" in only_warning(mapping)

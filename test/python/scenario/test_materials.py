@@ -53,10 +53,10 @@ def test_keys_of_the_scenario_go_before(made_of, tmp_path):
     "kind, value, expected",
     [
         ("rod", "hemp_rop", "did you mean 'hemp_rope'? known: hemp_rope, nylon_rope"),
-        ("rod", "cotton", "that is a material of type fabric; known: hemp_rope"),
-        ("fabric", "steel_rod", "that is a material of type rod; known: cotton"),
-        ("rod", 3, "is no known material of type rod"),
-        ("rod", ["cotton"], "is no known material of type rod"),
+        ("rod", "cotton", "it is a material of type fabric; known: hemp_rope"),
+        ("fabric", "steel_rod", "it is a material of type rod; known: cotton"),
+        ("rod", 3, "is not a known material of type rod"),
+        ("rod", ["cotton"], "is not a known material of type rod"),
     ],
 )
 def test_unknown_materials_are_told_with_all_other_mistakes(

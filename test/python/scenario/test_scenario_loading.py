@@ -135,7 +135,7 @@ def test_unknown_bare_name_lists_the_scenarios():
 def test_what_is_no_regular_file_is_refused(tmp_path):
     os.mkfifo(str(tmp_path / "pipe.yaml"))
     for path in (tmp_path / "pipe.yaml", "/dev/zero"):
-        with pytest.raises(ScenarioError, match="no regular file"):
+        with pytest.raises(ScenarioError, match="not a regular file"):
             load_scenario(path)
 
 

@@ -50,7 +50,7 @@ WRONG_VALUES = [
     ("leader.waypoints.1.time", 5e-324, "at least 0.001 s later than the waypoint before"),
     ("leader.waypoints.1.position", [0, 99, 0], "m from the waypoint before, 5 m/s in"),
     ("leader.workspace", "big", "a section with keys lower, upper"),
-    ("leader.workspace", {"lower": [0, 0, 9], "upper": [1, 1, 1]}, "not so in z"),
+    ("leader.workspace", {"lower": [0, 0, 9], "upper": [1, 1, 1]}, "below its upper one in z"),
     ("leader.workspace", {"lower": [1, 1, 1], "upper": [2, 2, 2]}, "the leader's start"),
     ("leader.max_velocity", 0, "a number > 0 and <= 5 [m/s]"),
     ("leader.max_acceleration", -1, "a number > 0 and <= 1000 [m/s^2]"),
@@ -218,7 +218,7 @@ def test_all_mistakes_at_once_with_their_lines(tmp_path):
     text = str(caught.value)
     assert text.splitlines()[0] == "{}: 4 mistakes".format(path)
     assert "  controller.gain: -1 \u2014 must be a number > 0 [1/s] (line 8)" in text.splitlines()
-    assert "is there twice, first on line 11" in text
+    assert "appears twice, first on line 11" in text
 
 
 @pytest.mark.parametrize(

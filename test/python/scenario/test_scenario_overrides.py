@@ -66,13 +66,13 @@ def test_aliases_in_the_file_are_not_changed_together(mapping, tmp_path):
 @pytest.mark.parametrize(
     "key, value, expected",
     [
-        ("controler.a", "1", "controler: is not a key of this place; did you mean 'controller'"),
+        ("controler.a", "1", "controler: is not a key here; did you mean 'controller'"),
         ("controller.gian", "1", "did you mean 'gain'?"),
         ("leader.waypoints.2.time", "1", "list of 2; name an item by its index, 0 to 1"),
         ("leader.waypoints.-1.time", "1", "name an item by its index"),
         ("leader.waypoints.last.time", "1", "name an item by its index"),
         ("agents.helpr.particle", "1", "there is no agent 'helpr'; did you mean 'helper'?"),
-        ("controller.rate.x", "1", "controller.rate is 50.0, without keys of its own"),
+        ("controller.rate.x", "1", "controller.rate is 50.0, which has no keys"),
         ("controller.gain", "[1", "not valid YAML"),
         ("controller.gain", "fast", "controller.gain: 'fast' \u2014 must be a number > 0"),
         ("", "1", "is not a key"),

@@ -10,7 +10,7 @@ struct CollisionParameters {
   double offset;                       //!< [m] distance to keep
   double margin;                       //!< [m] beyond the offset, that the rows keep
   double speed_margin;                 //!< [s] more of it per m/s of the leader's speed
-  double band;                         //!< [m] features farther than the nearest by this have no row
+  double band;                         //!< [m] features farther than the nearest by more have no row
   PiecewiseLinearClassK alpha;         //!< of the limit
   PiecewiseLinearClassK anticipation;  //!< of the softer row beside each
 
@@ -25,22 +25,22 @@ struct CollisionParameters {
 //!
 //!   dh/dt = sum_a g_a . v_a - n . w = sum over assistants g_i . (u_i - v_leader) + n . (v_leader - w).
 //!
-//! Those who are not commanded together share dh/dt >= -alpha(h) in proportion to what they can do. For the commanded
-//! assistants i, with s = (sum of g_i^2 over them) / (sum of g^2 over all assistants),
+//! Assistants that are not commanded together share dh/dt >= -alpha(h) in proportion to what they can do. For the
+//! commanded assistants i, with s = (sum of g_i^2 over them) / (sum of g^2 over all assistants),
 //!
 //!   sum_i g_i . (u_i - v_leader) >= -s (n . (v_leader - w) + alpha(h)).
 //!
 //! The shares sum to the whole constraint; no assistant's velocity is fed back to another, and a formation
-//! that moves as one with the leader along the obstacle is not held back. Where all assistants are commanded
-//! together, as is a single one, s = 1: sum_i g_i . u_i + g_leader . v_leader - n . w >= -alpha(h).
+//! that moves as one with the leader along the obstacle is not held back. If all assistants are commanded
+//! together, or there is only one, s = 1: sum_i g_i . u_i + g_leader . v_leader - n . w >= -alpha(h).
 //!
-//! A disturbance (see DisturbanceObserver) that lets the distance fall adds to n . (v_leader - w); one that lets it
-//! grow is not relied on.
+//! A disturbance (see DisturbanceObserver) that reduces the distance is added to n . (v_leader - w). One that increases
+//! it is ignored.
 //!
-//! The rows stay above the offset by margin + speed_margin |v_leader|, and take the distance as predicted for
-//! the time when the command acts. A second row of the same form for each feature, a wish
-//! with a gentler slope, asks earlier for what the first will demand. Towards the edge of the band both
-//! loosen until no velocity is beyond them, so that features come and go without a step in the command.
+//! The rows stay above the offset by margin + speed_margin |v_leader|, and use the distance predicted for
+//! the time when the command acts. Each feature has a second row of the same form, a wish with a gentler slope,
+//! which asks earlier for what the first row will demand. Towards the edge of the band both rows loosen until every
+//! velocity satisfies them, so that features come and go without a step in the command.
 class CollisionBarrier : public Barrier {
  public:
   CollisionBarrier(const CollisionParameters& parameters, const Team& team) : parameters_(parameters), team_(team) {}

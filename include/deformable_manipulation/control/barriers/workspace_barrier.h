@@ -8,7 +8,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Where the held points of the commanded assistants may be, in the fixed frame.
+//! The region in which the held points of the commanded assistants may be, in the fixed frame.
 struct WorkspaceParameters {
   //! All points x with normal . x >= level.
   struct HalfSpace {

@@ -26,7 +26,7 @@ class CollisionSpec:
     )
     alpha: Tuple[float, float] = parameter(
         Slopes(),
-        "How fast h may shrink, per metre left, and how fast a violation is mended. "
+        "How fast h may shrink, per metre left, and how fast a violation is corrected. "
         "Lower the first to slow down farther from obstacles.",
         default=(1.0, 5.0),
         live=Live(("collision_alpha", "collision_alpha_back"), 0.01, 50.0),

@@ -34,7 +34,7 @@ class OverstretchSpec:
     )
     alpha: Tuple[float, float] = parameter(
         Slopes(),
-        "How fast h may shrink, per metre left, and how fast a violation is mended.",
+        "How fast h may shrink, per metre left, and how fast a violation is corrected.",
         default=(1.0, 2.0),
         live=Live(("overstretch_alpha", "overstretch_alpha_back"), 0.01, 50.0),
         native=True,

@@ -99,7 +99,7 @@ class WorkspaceBarrierSpec:
     )
     alpha: Tuple[float, float] = parameter(
         Slopes(),
-        "How fast h may shrink, per metre left, and how fast a violation is mended.",
+        "How fast h may shrink, per metre left, and how fast a violation is corrected.",
         default=(1.0, 5.0),
         native=True,
     )

@@ -83,7 +83,7 @@ def _start(name, segments, **options):
 
 
 def _at_rest(name, segments, solver, substeps):
-    """The rod at rest, or as it is after its time limit: Gauss-Seidel can go round for ever."""
+    """The rod at rest, or as it is after its time limit: Gauss-Seidel can go round forever."""
     rod = _start(name, segments, solver=solver)
     try:
         settle(rod, substeps, REST, TIME_LIMIT[solver])

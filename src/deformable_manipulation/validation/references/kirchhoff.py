@@ -72,7 +72,7 @@ class KirchhoffProblem:
         """Solve for ends along a path, each from the solution before; returns the last.
 
         nodes (n,) and guess (13, n): arc lengths and state in units of the length and of EI /
-        length^2. Raises RuntimeError where a solution is not found.
+        length^2. Raises RuntimeError if a solution is not found.
         """
         for ends in path:
             bvp = self._solve(ends, nodes, guess, TOLERANCE_ON_THE_WAY)

@@ -89,7 +89,7 @@ class MeshEnergy:
     ) -> np.ndarray:
         """Positions (P, 3) [m] of least energy near those given, with some vertices held.
 
-        tolerance: of the forces [N]. Raises RuntimeError where it is not reached.
+        tolerance: of the forces [N]. Raises RuntimeError if it is not reached.
         """
         free = np.flatnonzero(~np.isin(np.repeat(np.arange(len(positions)), 3), list(held)))
         positions = np.array(positions, dtype=float)
