@@ -60,16 +60,12 @@ class Barrier {
 //! Makes a barrier from its section of the scenario.
 using BarrierMaker = std::function<std::unique_ptr<Barrier>(const ParameterSection& section, const Team& team)>;
 
-<<<<<<< HEAD
-//! Barriers by their names, from the section `controller`.
-//! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for what is wrong in the section
+//! Makes barriers by their names, from the section `controller`.
+//! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for everything wrong in the section
 std::vector<std::unique_ptr<Barrier>> makeBarriers(const std::vector<std::string>& names,
                                                    const ParameterValue& controller, const Team& team);
 
-//! How to make each barrier that there is, by its name.
-=======
 //! The functions that make the barriers, by name.
->>>>>>> c75c69061654980d65981bb05228244ef398b8e5
 const std::map<std::string, BarrierMaker>& barrierMakers();
 
 }  // namespace control

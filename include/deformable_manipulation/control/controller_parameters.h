@@ -12,11 +12,10 @@ namespace control {
 
 using pbd::Vector3;
 
-<<<<<<< HEAD
 //! How far a controller looks ahead, see Horizon.
 struct HorizonParameters {
   double length;        //!< [s] 0: not at all
-  int nodes;            //!< times N at which it looks
+  int nodes;            //!< number N of times at which it looks
   double leader_fade;   //!< [s] time constant with which the leader's velocity is expected to fade
   Vector3 weights;      //!< cost of departing from the nominal velocity per axis
   double max_velocity;  //!< [m/s] of every component
@@ -25,12 +24,8 @@ struct HorizonParameters {
   static HorizonParameters read(const ParameterSection& horizon);
 };
 
-//! What a controller is made of. Ranges, defaults and meanings of the keys are declared in Python, see
-//! docs/parameters.md; here are only their values.
-=======
 //! The parameters of a controller. Only the values are here; ranges, defaults and meanings of the keys are declared in
 //! Python, see docs/parameters.md.
->>>>>>> c75c69061654980d65981bb05228244ef398b8e5
 struct ControllerParameters {
   std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
   std::vector<Vector3> places;        //!< [A] m, the same of all agents

@@ -33,17 +33,12 @@ class Differences {
   //! Takes in the copies of an observation.
   void update(const ObservationView& observation);
 
-<<<<<<< HEAD
-  //! All features of copy 0, each with the rates of its own material point: as that of a locally nearest pair,
-  //! its distance changes with the points' motion along the normal, g[m, a, j] = normal . dX_m / dp_aj.
-  //! How the object's points follow the held points, as far as the copies tell.
-  //! @param to [A x P x 3 x 3] d point / d held point; of all agents together the identity
+  //! How the object's points follow the held points, as far as the copies show.
+  //! @param to [A x P x 3 x 3] d point / d held point; the sum over all agents is the identity
   void takeResponse(std::vector<double>& to) const;
 
-=======
   //! All features of copy 0, each with the rates of its own material point. The distance of a locally nearest pair
   //! changes with the points' motion along the normal: g[m, a, j] = normal . dX_m / dp_aj.
->>>>>>> c75c69061654980d65981bb05228244ef398b8e5
   void takeGradients(const distance::Distances& distances, Features& features) const;
 
   //! The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6).

@@ -19,14 +19,8 @@ struct Response {
 //!
 //! @param chosen the features
 //! @param leader index of the leader
-<<<<<<< HEAD
-//! @param features what is filled
-void takeResponseGradients(const ChosenFeatures& chosen, const Response& response, int leader, Features& features);
-=======
-//! @param nearest_only the feature of the minimum alone, if there is one
 //! @param features the result
-void takeResponseGradients(const ObservationView& observation, int leader, bool nearest_only, Features& features);
->>>>>>> c75c69061654980d65981bb05228244ef398b8e5
+void takeResponseGradients(const ChosenFeatures& chosen, const Response& response, int leader, Features& features);
 
 }  // namespace control
 }  // namespace deformable_manipulation

@@ -13,21 +13,12 @@ namespace distance {
 class MinimumDistance {
  public:
   //! @param margin [m] from the object's centre line or mid-surface to its surface: radius or half thickness
-<<<<<<< HEAD
-  //! @param band [m] features up to this much farther than a copy's minimum are told
+  //! @param band [m] features up to this much farther than a copy's minimum are reported
   //! @throw std::invalid_argument if a length is negative or not finite
   MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band);
 
-  //! The first `detailed` copies have all their features within the band, every other copy its minimum alone.
-  //! It depends on the arguments alone. The result is valid until the next call.
-=======
-  //! @param band [m] features of copy 0 up to this much farther than its minimum are reported
-  //! @throw std::invalid_argument if a length is negative or not finite
-  MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band);
-
-  //! Copy 0 gets all its features within the band, every other copy only that of its minimum.
+  //! The first `detailed` copies get all their features within the band, every other copy only that of its minimum.
   //! It depends only on the arguments. The result is valid until the next call.
->>>>>>> c75c69061654980d65981bb05228244ef398b8e5
   //! @throw std::invalid_argument if there is no copy, a copy has fewer than two points, a triangle refers to
   //! a point that does not exist, or a coordinate is not finite or beyond 1e6 m.
   const Distances& compute(const ObjectView& object, int detailed = 1);
