@@ -162,7 +162,7 @@ const std::vector<Decision>& TeamController::update(const ObservationView& obser
     time_ = observation.time;
     answered_ = true;
   }
-  const auto size = static_cast<Eigen::Index>(3 * observation.agents);
+  const Eigen::Index size = 3 * observation.agents;
   velocities_.update(observation.time, Eigen::Map<const Eigen::VectorXd>(observation.positions, size));
   differences_.update(observation);
   predict(observation);

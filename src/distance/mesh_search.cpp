@@ -316,7 +316,7 @@ void MeshSearch::improve(Nearest* pair) const {
 //! Whether an element is not farther than the reach [m] from the boxes around the surface.
 bool MeshSearch::touchesBox(int element, double reach) const {
   const FourFloats away = surface_.tree()[0].squaredDistances(boxAround(object_->corners<3>(element)));
-  return *std::min_element(&away[0], &away[0] + 4) <= reach * reach;
+  return std::min({away[0], away[1], away[2], away[3]}) <= reach * reach;
 }
 
 //! The nearest pair of one element, if it is not farther apart than the bound [m].

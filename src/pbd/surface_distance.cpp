@@ -57,6 +57,7 @@ bool flatAndConvex(const std::vector<Vector3>& vertices, const std::vector<Trian
     return false;
   }
   std::vector<Point> in_plane;
+  in_plane.reserve(points.cols());
   for (int i = 0; i < points.cols(); ++i) {
     in_plane.emplace_back(points(0, i), points(1, i));
   }

@@ -46,6 +46,7 @@ Array pointsOf(const Body& body, const py::object& out) {
 
 std::vector<MaterialParameter> toParameters(const std::map<std::string, double>& parameters) {
   std::vector<MaterialParameter> converted;
+  converted.reserve(parameters.size());
   for (const auto& [key, value] : parameters) {
     converted.push_back({key, value});
   }

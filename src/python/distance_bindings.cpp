@@ -50,7 +50,9 @@ NamedDistances compute(NamedMinimumDistance& distance, const Points& points, con
 
 PYBIND11_MODULE(_distance, module) {
   module.doc() = "Signed minimum distances between a deformable object's copies and obstacles (C++ core).";
-  py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.");
+  // It is in the module then: the object only adds to it.
+  py::class_<Obstacle, std::shared_ptr<Obstacle>>(  // NOLINT(bugprone-unused-raii)
+      module, "Obstacle", "Something to keep off.");
   bindPlanarObstacle(module);
   bindMeshObstacle(module);
   bindDistances(module);

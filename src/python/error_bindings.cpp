@@ -11,7 +11,7 @@ void bindErrors(py::module_& module) {
   non_finite.attr("__doc__") = "The simulated state is no longer finite; the text names step, copy and particle.";
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
-      std::rethrow_exception(pointer);
+      std::rethrow_exception(std::move(pointer));
     } catch (const ParameterError& error) {
       py::list problems;
       for (const Problem& problem : error.problems()) {

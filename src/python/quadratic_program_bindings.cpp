@@ -85,9 +85,9 @@ void bindQuadraticProgram(py::module_& module) {
       .def_property_readonly(
           "kinds",
           [](const ConstraintRows& rows) {
-            std::vector<int> kinds;
+            std::vector<int> kinds(rows.size());
             for (int row = 0; row < rows.size(); ++row) {
-              kinds.push_back(rows.kind(row));
+              kinds[row] = rows.kind(row);
             }
             return kinds;
           },

@@ -109,9 +109,11 @@ class FaultServicesTest(FaultTest):
         self.assertTrue(call("pause", SetBool, True).success)
         self.addCleanup(call, "pause", SetBool, False)
         self.assert_waits("no state for")
-        paused = self.states[-1]
+        paused, count = self.states[-1], len(self.states)
         self.assertTrue(call("step", Step, 5).success)
-        self.states.wait_for(lambda state: state.cycle == paused.cycle + 5, "the fifth cycle")
+        self.states.wait_for(
+            lambda state: state.cycle == paused.cycle + 5, "the fifth cycle", count
+        )
         self.assert_waits("no state for")
         self.assertEqual(self.states[-1].cycle, paused.cycle + 5)
         self.assertTrue(call("pause", SetBool, False).success)

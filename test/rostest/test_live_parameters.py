@@ -34,6 +34,7 @@ class LiveParametersTest(unittest.TestCase):
         cls.simulator = Client("simulator", timeout=DEADLINE)
         cls.decisions = observe_controllers(cls.scenario)[AGENT]
         cls.states = observe_states()
+        cls.decisions.wait_for_more(1)
         cls.start = cls.controller.get_configuration(DEADLINE)
 
     def setUp(self):

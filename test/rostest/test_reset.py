@@ -61,7 +61,12 @@ class ResetTest(unittest.TestCase):
         )
         self.assertEqual(self.latched_state().header.stamp, fifth.header.stamp)
         self.assertTrue(call("step", Step, 0).success)
-        self.states.wait_for(lambda state: state.cycle == fifth.cycle + 1, "one more cycle")
+        self.states.wait_for(
+            lambda state: (
+                state.header.stamp > fifth.header.stamp and state.cycle == fifth.cycle + 1
+            ),
+            "one more cycle",
+        )
 
     def test_a_paused_run_can_be_reset(self):
         self.assertTrue(call("pause", SetBool, True).success)

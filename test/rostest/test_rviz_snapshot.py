@@ -47,9 +47,9 @@ class RvizSnapshotTest(SnapshotCommandTest):
         path.write_text(yaml.safe_dump(configuration))
         return str(path)
 
-    def assert_nothing_rendered(self, change, reason):
+    def assert_nothing_rendered(self, change, reason, timeout):
         path = self.change_configuration(change)
-        options = ["--times", "0", "--config", path, "--timeout", "15"]
+        options = ["--times", "0", "--config", path, "--timeout", timeout]
         status, printed, complaints = self.run_command(*options)
         self.assertEqual((status, printed), (1, []), complaints)
         self.assertIn("nothing was rendered: " + reason, complaints)
@@ -58,13 +58,14 @@ class RvizSnapshotTest(SnapshotCommandTest):
         def look_away(manager):
             manager["Views"]["Current"]["Focal Point"] = {"X": 0, "Y": 500, "Z": 900}
 
-        self.assert_nothing_rendered(look_away, "the 3D view is blank")
+        # Long enough for RViz to start and to receive the markers.
+        self.assert_nothing_rendered(look_away, "the 3D view is blank", "15")
 
     def test_a_configuration_that_does_not_show_the_run(self):
         def hide(manager):
             manager["Displays"] = []
 
-        self.assert_nothing_rendered(hide, "RViz did not receive /markers")
+        self.assert_nothing_rendered(hide, "RViz did not receive /markers", "2")
 
     def test_an_interruption_ends_everything(self):
         for number in (signal.SIGINT, signal.SIGTERM):
