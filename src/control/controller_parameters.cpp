@@ -33,7 +33,7 @@ Priority readPriority(const ParameterSection& controller, const std::vector<std:
 
 HorizonParameters HorizonParameters::read(const ParameterSection& horizon) {
   return {horizon.number("length"), horizon.integer("nodes"), horizon.number("leader_fade"),
-          horizon.vector<3>("weights"), 0.0};
+          horizon.number("leader_doubt"), horizon.vector<3>("weights")};
 }
 
 ControllerParameters ControllerParameters::read(const ParameterSection& controller, const ParameterSection& team) {

@@ -5,9 +5,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-int ChosenFeatures::count() const {
-  return std::min(most, distances.offsets[copy + 1] - distances.offsets[copy]);
-}
+int ChosenFeatures::count() const { return std::min(most, distances.offsets[copy + 1] - distances.offsets[copy]); }
 
 void Features::clear() {
   distance.clear();

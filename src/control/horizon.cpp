@@ -44,88 +44,96 @@ Horizon::Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectF
 void Horizon::setParameters(const ControllerParameters& p) {
   parameters_ = p.horizon;
   team_ = commandingAll(p, p.horizon.length);
+  max_velocity_ = p.max_velocity;
+  weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
-  kept_ = std::exp(-p.gain * interval_);
-  gain_ = (1.0 - kept_) / interval_;
+  decay_ = std::exp(-p.gain * interval_);
+  gain_ = (1.0 - decay_) / interval_;
   barriers_ = makeBarriers(p.barriers, demandingPositions(p), team_);
   const Eigen::VectorXd weights = p.horizon.weights.replicate(p.horizon.nodes * columns(), 1);
   filter_ = std::make_unique<SafetyFilter>(weights, afterFirst(p.priority), true);
-  parameters_.max_velocity = p.max_velocity;
-  reach_.setConstant(weights.size(), 2.0 * p.max_velocity);
+  reach_.setConstant(weights.size(), 2.0 * max_velocity_);
   zero_.setZero(weights.size());
   if (departures_.size() != weights.size()) {
     reset();
   }
 }
 
-void Horizon::reset() {
-  departures_.setZero(3 * parameters_.nodes * columns());
-}
-
-//! What is left at the end of interval `to` of a displacement made in interval `from` [s].
-double Horizon::carried(int from, int to) const { return interval_ * std::pow(kept_, to - from); }
+void Horizon::reset() { departures_.setZero(3 * parameters_.nodes * columns()); }
 
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,
-                   const std::vector<Vector3>& places) {
-  follow(predicted, places);
+                   const std::vector<Follower>& followers) {
+  expectLeader(predicted);
+  follow(predicted, followers);
   displace();
-  held_.resize(static_cast<std::size_t>(parameters_.nodes) * observation.agents);
-  for (int node = 0; node < parameters_.nodes; ++node) {
-    Vector3* held = &held_[static_cast<std::size_t>(node) * observation.agents];
-    held[team_.leader] = leader_[node + 1];
-    for (int column = 0; column < columns(); ++column) {
-      held[team_.commanded[column]] =
-          followed_[column][node + 1] + displaced_.segment<3>(variable(node, column));
-    }
-  }
+  hold(observation.agents);
   forecast_->look(observation, held_);
   rows_.clear(static_cast<int>(departures_.size()));
   for (int node = 0; node < parameters_.nodes; ++node) {
     addLimits(node);
   }
   addVelocities();
-  const Filtered& result = filter_->filter(zero_, rows_, -reach_, reach_);
-  departures_ = result.velocity;
+  weigh();
+  departures_ = filter_->filter(zero_, rows_, -reach_, reach_).velocity;
 }
 
-//! Where the leader is expected, and the assistants by the nominal law within their velocity.
-void Horizon::follow(const PredictedState& predicted, const std::vector<Vector3>& places) {
-  const int nodes = parameters_.nodes;
+void Horizon::expectLeader(const PredictedState& predicted) {
+  speed_ = predicted.leaderVelocity().norm();
   leader_.assign(1, predicted.positions[team_.leader]);
-  for (int node = 0; node < nodes; ++node) {
-    const double faded = parameters_.leader_fade * (1.0 - std::exp(-timeOf(node) / parameters_.leader_fade));
-    leader_.push_back(leader_[0] + (announced_.empty() ? faded * predicted.leaderVelocity() : announced_[node]));
+  for (int node = 0; node < parameters_.nodes; ++node) {
+    const double fade = parameters_.leader_fade;
+    const Vector3 fading = fade * (1.0 - std::exp(-timeOf(node) / fade)) * predicted.leaderVelocity();
+    leader_.push_back(leader_[0] + fading);
   }
-  announced_.clear();
-  followed_.resize(columns());
-  speeds_.resize(columns());
+}
+
+//! What becomes of the assistants by the nominal law, within their velocity.
+void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
+  paths_.resize(columns());
   for (int column = 0; column < columns(); ++column) {
     const int agent = team_.commanded[column];
-    std::vector<Vector3>& path = followed_[column];
-    path.assign(1, predicted.positions[agent]);
-    speeds_[column].clear();
-    for (int node = 0; node < nodes; ++node) {
-      const Vector3 error = leader_[node] + places[agent] - path[node];
-      const Vector3 wished = (leader_[node + 1] - leader_[node]) / interval_ + gain_ * error;
-      speeds_[column].push_back(wished.cwiseMax(-parameters_.max_velocity).cwiseMin(parameters_.max_velocity));
-      path.push_back(path[node] + interval_ * speeds_[column][node]);
+    Path& path = paths_[column];
+    path.max_velocity = followers[agent].follows ? max_velocity_ : 0.0;
+    path.positions.assign(1, predicted.positions[agent]);
+    path.velocities.clear();
+    for (int node = 0; node < parameters_.nodes; ++node) {
+      const Vector3 error = leader_[node] + followers[agent].place - path.positions[node];
+      const Vector3 nominal = (leader_[node + 1] - leader_[node]) / interval_ + gain_ * error;
+      path.velocities.push_back(nominal.cwiseMax(-path.max_velocity).cwiseMin(path.max_velocity));
+      path.positions.push_back(path.positions[node] + interval_ * path.velocities[node]);
     }
   }
 }
 
-//! How far the last plan's departures lead away from what the nominal law does.
+//! How far the last plan's departures lead away from the paths.
 void Horizon::displace() {
   displaced_.setZero(departures_.size());
   const Eigen::Index width = 3 * columns();
   for (int node = 0; node < parameters_.nodes; ++node) {
     displaced_.segment(node * width, width) = interval_ * departures_.segment(node * width, width);
     if (node > 0) {
-      displaced_.segment(node * width, width) += kept_ * displaced_.segment((node - 1) * width, width);
+      displaced_.segment(node * width, width) += decay_ * displaced_.segment((node - 1) * width, width);
     }
   }
 }
 
-//! The barriers at a node, on all departures before it.
+//! Where all agents hold the object, by the last plan.
+void Horizon::hold(int agents) {
+  held_.resize(static_cast<std::size_t>(parameters_.nodes) * agents);
+  for (int node = 0; node < parameters_.nodes; ++node) {
+    Vector3* held = &held_[static_cast<std::size_t>(node) * agents];
+    held[team_.leader] = leader_[node + 1];
+    for (int column = 0; column < columns(); ++column) {
+      held[team_.commanded[column]] =
+          paths_[column].positions[node + 1] + displaced_.segment<3>(variable(node, column));
+    }
+  }
+}
+
+//! [s] What a departure in interval `from` has displaced at the end of interval `to`, over its velocity.
+double Horizon::kept(int from, int to) const { return interval_ * std::pow(decay_, to - from); }
+
+//! The barriers at a node, as rows on all departures before it.
 void Horizon::addLimits(int node) {
   PredictedState there;
   there.leader = team_.leader;
@@ -134,7 +142,8 @@ void Horizon::addLimits(int node) {
   there.velocities.assign(there.positions.size(), Vector3::Zero());
   forecast_->takeFeatures(node, team_.leader, features_);
   for (int m = 0; m < features_.size(); ++m) {
-    features_.distance[m] -= timeOf(node) * features_.normal[m].dot(features_.obstacle_velocity[m]);
+    const double approach = features_.normal[m].dot(features_.obstacle_velocity[m]);
+    features_.distance[m] -= timeOf(node) * (approach + parameters_.leader_doubt * speed_);
     features_.obstacle_velocity[m].setZero();
   }
   const Eigen::Index width = 3 * columns();
@@ -143,13 +152,13 @@ void Horizon::addLimits(int node) {
     BarrierRows rows(node_rows_, static_cast<int>(k), -1);
     barriers_[k]->addRows(features_, there, rows);
   }
-  const double scale = 1.0 / timeOf(node);
+  const double scale = 1.0 / timeOf(node);  // rows of velocities, as the filter expects them
   for (int r = 0; r < node_rows_.size(); ++r) {
     const auto g = node_rows_.coefficients(r);
     const double bound = node_rows_.bound(r) + g.dot(displaced_.segment(node * width, width));
     auto row = rows_.add(node_rows_.kind(r), scale * bound);
     for (int from = 0; from <= node; ++from) {
-      row.segment(from * width, width) = scale * carried(from, node) * g;
+      row.segment(from * width, width) = scale * kept(from, node) * g;
     }
   }
 }
@@ -159,17 +168,25 @@ void Horizon::addVelocities() {
   const int kind = static_cast<int>(barriers_.size());
   for (int node = 0; node < parameters_.nodes; ++node) {
     for (int column = 0; column < columns(); ++column) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const double sign : {1.0, -1.0}) {
-          auto row = rows_.add(kind, -parameters_.max_velocity - sign * speeds_[column][node][axis]);
-          row[variable(node, column) + axis] = sign;
-          for (int from = 0; from < node; ++from) {
-            row[variable(from, column) + axis] = -sign * gain_ * carried(from, node - 1);
-          }
+      const Path& path = paths_[column];
+      for (int k = 0; k < 6; ++k) {
+        const int axis = k / 2;
+        const double sign = k % 2 == 0 ? 1.0 : -1.0;
+        auto row = rows_.add(kind, -path.max_velocity - sign * path.velocities[node][axis]);
+        row[variable(node, column) + axis] = sign;
+        for (int from = 0; from < node; ++from) {
+          row[variable(from, column) + axis] = -sign * gain_ * kept(from, node - 1);
         }
       }
     }
   }
+}
+
+//! The faster the leader, the more it counts that there is a way back.
+void Horizon::weigh() {
+  const double fast = std::min(1.0, speed_ / max_velocity_);
+  const Vector3 weights = (1.0 - fast) * weights_at_rest_ + fast * parameters_.weights;
+  filter_->setWeights(weights.replicate(parameters_.nodes * columns(), 1));
 }
 
 Vector3 Horizon::departure(int agent) const { return departures_.segment<3>(variable(0, team_.columnOf(agent))); }

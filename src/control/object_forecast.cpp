@@ -8,8 +8,8 @@ namespace deformable_manipulation {
 namespace control {
 namespace {
 
-// Of a node, the nearest: what is farther away there is nearest at another node, or does not act.
-constexpr int kMostFeatures = 8;
+// What is farther away at a node is nearest at another one, or does not act.
+constexpr int kFeatures = 1;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
     object.point_count = points_of_shape_;
     object.triangles = triangles_.empty() ? nullptr : triangles_.data();
     object.triangle_count = static_cast<int>(triangles_.size());
-    distances_ = &distance_->compute(object, known);
+    distances_ = &distance_->compute(object);
   }
 }
 
@@ -58,7 +58,7 @@ void ObjectForecast::takeFeatures(int node, int leader, Features& features) cons
     return;
   }
   const std::size_t numbers = 9 * static_cast<std::size_t>(points_of_shape_) * agents_;
-  takeResponseGradients({*distances_, place, kMostFeatures}, {&responses_[numbers * place], agents_, points_of_shape_},
+  takeResponseGradients({*distances_, place, kFeatures}, {&responses_[numbers * place], agents_, points_of_shape_},
                         leader, features);
 }
 

@@ -36,8 +36,8 @@ TeamController::TeamController(const ControllerParameters& p)
       filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
   present_.positions.resize(p.team.agents);
   for (const int agent : p.team.commanded) {
-    members_.push_back({agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(),
-                        true});
+    members_.push_back(
+        {agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
   }
   setSmoothing();
   decisions_.resize(members_.size());
@@ -50,12 +50,6 @@ TeamController::TeamController(const ControllerParameters& p)
 void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
   forecast_ = std::move(forecast);
   horizon_ = std::make_unique<Horizon>(parameters_, forecast_);
-}
-
-void TeamController::announce(std::vector<Vector3> displacements) {
-  if (horizon_ != nullptr) {
-    horizon_->announce(std::move(displacements));
-  }
 }
 
 void TeamController::setSmoothing() {
@@ -94,7 +88,10 @@ void TeamController::reset() {
   for (int i = 0; i < size(); ++i) {
     members_[i].reference = parameters_.references[i];
   }
-  places_ = parameters_.places;
+  followers_.clear();
+  for (const Vector3& place : parameters_.places) {
+    followers_.push_back({place, true});
+  }
   forget();
 }
 
@@ -112,7 +109,7 @@ void TeamController::forget() {
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
-  places_[taking.agent] = taking.reference;
+  followers_[taking.agent].place = taking.reference;
   taking.departure.setZero();  // it was from another nominal velocity
 }
 
@@ -256,8 +253,7 @@ bool TeamController::findGradients(const ObservationView& observation) {
     if (nearest_only) {
       chosen.most = 1;
     }
-    takeResponseGradients(chosen,
-                          {observation.sensitivities, observation.agents, observation.points},
+    takeResponseGradients(chosen, {observation.sensitivities, observation.agents, observation.points},
                           parameters_.team.leader, features_);
     for (Decision& decision : decisions_) {
       decision.exact_jacobian = true;
@@ -323,15 +319,17 @@ void TeamController::setBounds() {
 void TeamController::lookAhead(const ObservationView& observation) {
   const bool looks = parameters_.safety && horizon_ != nullptr;
   if (looks) {
+    for (const Member& member : members_) {
+      followers_[member.agent].follows = member.enabled;
+    }
     tellResponse(observation);
-    horizon_->plan(observation, predicted_, places_);
+    horizon_->plan(observation, predicted_, followers_);
   }
   const double most = parameters_.max_velocity;
   for (int i = 0; i < size(); ++i) {
     const Vector3& nominal = decisions_[i].nominal;
-    members_[i].goal = !looks ? nominal
-                              : Vector3(nominal.cwiseMax(-most).cwiseMin(most) +
-                                        horizon_->departure(members_[i].agent));
+    members_[i].goal =
+        !looks ? nominal : Vector3(nominal.cwiseMax(-most).cwiseMin(most) + horizon_->departure(members_[i].agent));
   }
 }
 
@@ -341,7 +339,8 @@ void TeamController::tellResponse(const ObservationView& observation) {
     return;
   }
   if (decisions_.front().exact_jacobian) {
-    response_.assign(observation.sensitivities, observation.sensitivities + 9 * observation.agents * observation.points);
+    response_.assign(observation.sensitivities,
+                     observation.sensitivities + 9 * observation.agents * observation.points);
   } else {
     differences_.takeResponse(response_);
   }

@@ -65,14 +65,14 @@ class MeshObstacle::Search {
     }
   }
 
-  void features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) {
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
     prepare(object);
-    bring(object, copy);
+    bring(object, 0);
     for (Part& part : parts_) {
-      part.search->elements(object_, limit, guess(part, copy), &part.known[copy].bounds, &places_);
+      part.search->elements(object_, limit, guess(part, 0), &part.known[0].bounds, &places_);
       for (const MeshPlace& place : places_) {
         if (place.known()) {
-          found->push_back(featureAt(object, copy, *part.search, place));
+          found->push_back(featureAt(object, 0, *part.search, place));
         }
       }
     }
@@ -185,8 +185,8 @@ void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& ro
 
 void MeshObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
 
-void MeshObstacle::features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) {
-  search_->features(object, copy, limit, found);
+void MeshObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+  search_->features(object, limit, found);
 }
 
 }  // namespace distance

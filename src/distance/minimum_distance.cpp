@@ -72,7 +72,7 @@ MinimumDistance::MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacle
   requireLength("band", band);
 }
 
-const Distances& MinimumDistance::compute(const ObjectView& object, int detailed) {
+const Distances& MinimumDistance::compute(const ObjectView& object) {
   requireGeometry(object);
   nearest_.assign(object.copies, Feature());
   of_one_.resize(object.copies);
@@ -93,8 +93,8 @@ const Distances& MinimumDistance::compute(const ObjectView& object, int detailed
   result_.offsets.assign(1, 0);
   result_.minimum.clear();
   for (int copy = 0; copy < object.copies; ++copy) {
-    if (copy < detailed) {
-      addFeatures(object, copy);
+    if (copy == 0) {
+      addFeatures(object);
     } else if (!obstacles_.empty()) {
       result_.features.push_back(nearest_[copy]);
     }
@@ -108,23 +108,21 @@ const Distances& MinimumDistance::compute(const ObjectView& object, int detailed
   return result_;
 }
 
-void MinimumDistance::addFeatures(const ObjectView& object, int copy) {
+void MinimumDistance::addFeatures(const ObjectView& object) {
   std::vector<Feature>& features = result_.features;
-  const auto begin = static_cast<std::ptrdiff_t>(features.size());
-  const double limit = nearest_[copy].distance + band_ + kRounding;
+  const double limit = nearest_[0].distance + band_ + kRounding;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const std::size_t first = features.size();
-    obstacles_[i]->features(object, copy, limit, &features);
+    obstacles_[i]->features(object, limit, &features);
     for (std::size_t k = first; k < features.size(); ++k) {
       features[k].obstacle = static_cast<int>(i);
     }
   }
-  const auto first = [&] { return features.begin() + begin; };
-  if (first() == features.end() && !obstacles_.empty()) {  // rounding, far from the origin
-    features.push_back(nearest_[copy]);
+  if (features.empty() && !obstacles_.empty()) {  // rounding, far from the origin
+    features.push_back(nearest_[0]);
   }
-  std::sort(first(), features.end(), before);  // a stable sort would allocate
-  nearest_[copy].distance = first() == features.end() ? nearest_[copy].distance : first()->distance;
+  std::sort(features.begin(), features.end(), before);  // a stable sort would allocate
+  nearest_[0].distance = features.empty() ? nearest_[0].distance : features[0].distance;
 }
 
 }  // namespace distance

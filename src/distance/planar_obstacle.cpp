@@ -53,8 +53,8 @@ class PlanarObstacle::Search {
     }
   }
 
-  void features(const ObjectView& object, int index, double limit, std::vector<Feature>* found) {
-    const PlanarCopy copy = projected(object, index);
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+    const PlanarCopy copy = projected(object, 0);
     places_.clear();
     if (object.triangles == nullptr) {
       polyline_.elements(copy, limit, &places_);
@@ -62,7 +62,7 @@ class PlanarObstacle::Search {
       surface().elements(copy, object.triangles, object.triangle_count, limit, &places_);
     }
     for (const MaterialPoint& place : places_) {
-      found->push_back(featureAt(object, index, place));
+      found->push_back(featureAt(object, 0, place));
     }
   }
 
@@ -152,8 +152,8 @@ void PlanarObstacle::setPose(const Vector3& translation, const pbd::Quaternion& 
 
 void PlanarObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
 
-void PlanarObstacle::features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) {
-  search_->features(object, copy, limit, found);
+void PlanarObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+  search_->features(object, limit, found);
 }
 
 }  // namespace distance

@@ -1,6 +1,7 @@
 #include "deformable_manipulation/pbd/rod_rest_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -9,6 +10,8 @@ namespace {
 // A few steps follow what changes from cycle to cycle. What needs more is found in the cycles that follow, or is no
 // shape that the agents could rely on.
 constexpr EquilibriumOptions kLookingAhead{1e-4, 6};
+
+constexpr double kFar = 0.1;  // of the length
 
 }  // namespace
 
@@ -19,13 +22,15 @@ RodRestShapes::RodRestShapes(const Rod& rod, const std::vector<HeldPoint>& agent
   }
   for (const HeldPoint& held : rod_->holds()) {
     const auto holds = [&](const HeldPoint& agent) { return agent.particle == held.particle; };
-    agent_of_hold_.push_back(
-        static_cast<int>(std::find_if(agents.begin(), agents.end(), holds) - agents.begin()));
+    agent_of_hold_.push_back(static_cast<int>(std::find_if(agents.begin(), agents.end(), holds) - agents.begin()));
   }
   rod_->layOut();
 }
 
-void RodRestShapes::setPresent(const double* points) { rod_->setShape(points); }
+void RodRestShapes::setPresent(const double* points) {
+  present_.assign(points, points + 3 * pointCount());
+  rod_->setShape(points);
+}
 
 void RodRestShapes::find(const std::vector<Vector3>& held) {
   const std::size_t holds = agent_of_hold_.size();
@@ -34,16 +39,40 @@ void RodRestShapes::find(const std::vector<Vector3>& held) {
     held_[i] = held[i - i % holds + agent_of_hold_[i % holds]];
   }
   equilibrium_.updateElsewhere(*rod_, held_, kLookingAhead);
+  if (isFarFromPresent()) {
+    equilibrium_ = RodEquilibrium();
+    equilibrium_.updateElsewhere(*rod_, held_, kLookingAhead);
+  }
+}
+
+//! Whether the first shape lies farther from the present one than its holds have moved: the object has taken another
+//! of its equilibria since.
+bool RodRestShapes::isFarFromPresent() const {
+  if (!known(0)) {
+    return false;
+  }
+  std::vector<double> shape(present_.size());
+  points(0, shape.data());
+  double most = 0.0;
+  for (std::size_t i = 0; i < rod_->holds().size(); ++i) {
+    const Vector3 before = rod_->pose(rod_->holds()[i].particle).position;
+    most = std::max(most, (held_[i] - before).norm());
+  }
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    farthest = std::max(farthest, std::abs(shape[i] - present_[i]));
+  }
+  return farthest > 2.0 * most + kFar * rod_->parameters().length;
 }
 
 bool RodRestShapes::known(int shape) const { return equilibrium_.status(shape) == ResponseStatus::VALID; }
 
 void RodRestShapes::response(int shape, double* to) const {
   const std::size_t numbers = 9 * static_cast<std::size_t>(pointCount());
-  response_.resize(numbers * agent_of_hold_.size());
-  equilibrium_.response(shape, response_.data());
+  std::vector<double> of_holds(numbers * agent_of_hold_.size());
+  equilibrium_.response(shape, of_holds.data());
   for (std::size_t i = 0; i < agent_of_hold_.size(); ++i) {
-    std::copy_n(&response_[numbers * i], numbers, to + numbers * agent_of_hold_[i]);
+    std::copy_n(&of_holds[numbers * i], numbers, to + numbers * agent_of_hold_[i]);
   }
 }
 

@@ -101,7 +101,7 @@ void bindFilter(py::module_& module) {
 
 PYBIND11_MODULE(_control, module) {
   module.doc() = "Safe velocity control of assistants (C++ core).";
-  py::module_::import("deformable_manipulation._pbd");  // RestShapes
+  py::module_::import("deformable_manipulation._pbd");       // RestShapes
   py::module_::import("deformable_manipulation._distance");  // Distances, which observations hold
   py::class_<PiecewiseLinearClassK>(module, "PiecewiseLinearClassK",
                                     "Extended class K-infinity function: slopes [1/s] for h >= 0 and h < 0. Raises "

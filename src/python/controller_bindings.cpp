@@ -6,8 +6,8 @@
 #include <string>
 
 #include "control_bindings.h"
-#include "distances_binding.h"
 #include "deformable_manipulation/control/team_controller.h"
+#include "distances_binding.h"
 #include "observation_reader.h"
 #include "parameter_value_from_python.h"
 #include "solver_from_python.h"
@@ -136,12 +136,6 @@ void bindController(py::module_& module) {
           },
           py::arg("controller"), py::arg("team"),
           "Of the same agents and barriers; formulation, priority and solver stay. Raises ValueError.")
-      .def(
-          "announce",
-          [](BoundController& bound, std::vector<Vector3> displacements) {
-            bound.controller.announce(std::move(displacements));
-          },
-          py::arg("displacements"))
       .def(
           "look_ahead",
           [](BoundController& bound, std::shared_ptr<RestShapes> shapes,

@@ -7,7 +7,8 @@
 #include "deformable_manipulation/distance/features.h"
 #include "deformable_manipulation/distance/minimum_distance.h"
 
-//! The computation with the names of its obstacles, as Python holds it: deformable_manipulation._distance.MinimumDistance.
+//! The computation with the names of its obstacles, as Python holds it:
+//! deformable_manipulation._distance.MinimumDistance.
 struct NamedMinimumDistance {
   deformable_manipulation::distance::MinimumDistance native;
   std::shared_ptr<const std::vector<std::string>> names;

@@ -131,8 +131,8 @@ void bindGradients(py::module_& module) {
         }
         Features features;
         const ObservationView& view = reader.view();
-        takeResponseGradients(nearest_only ? ChosenFeatures{*view.distances, 0, 1} : ChosenFeatures{*view.distances}, {view.sensitivities, view.agents, view.points},
-                              leader, features);
+        takeResponseGradients(nearest_only ? ChosenFeatures{*view.distances, 0, 1} : ChosenFeatures{*view.distances},
+                              {view.sensitivities, view.agents, view.points}, leader, features);
         return features;
       },
       py::arg("observation"), py::arg("agents"), py::arg("leader") = 0, py::arg("nearest_only") = false,

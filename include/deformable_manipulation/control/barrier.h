@@ -61,7 +61,8 @@ class Barrier {
 using BarrierMaker = std::function<std::unique_ptr<Barrier>(const ParameterSection& section, const Team& team)>;
 
 //! Makes barriers by their names, from the section `controller`.
-//! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for everything wrong in the section
+//! @throw std::invalid_argument if there is no barrier of a name; pbd::ParameterError for everything wrong in the
+//! section
 std::vector<std::unique_ptr<Barrier>> makeBarriers(const std::vector<std::string>& names,
                                                    const ParameterValue& controller, const Team& team);
 

@@ -17,8 +17,8 @@ struct HorizonParameters {
   double length;        //!< [s] 0: not at all
   int nodes;            //!< number N of times at which it looks
   double leader_fade;   //!< [s] time constant with which the leader's velocity is expected to fade
+  double leader_doubt;  //!< part of the leader's expected way by which distances may be smaller
   Vector3 weights;      //!< cost of departing from the nominal velocity per axis
-  double max_velocity;  //!< [m/s] of every component
 
   //! Reads the section `controller.horizon`.
   static HorizonParameters read(const ParameterSection& horizon);
@@ -27,19 +27,19 @@ struct HorizonParameters {
 //! The parameters of a controller. Only the values are here; ranges, defaults and meanings of the keys are declared in
 //! Python, see docs/parameters.md.
 struct ControllerParameters {
-  std::vector<Vector3> references;    //!< [M] m, places to keep relative to the leader
-  std::vector<Vector3> places;        //!< [A] m, the same of all agents
-  double cycle_time;                  //!< [s]
-  bool safety;                        //!< false: the nominal velocity within its limits
-  double gain;                        //!< [1/s]
-  Vector3 weights;                    //!< cost of deviating from the nominal velocity, per axis
-  double max_velocity;                //!< [m/s] of every component
-  double max_acceleration;            //!< [m/s^2] of every component
-  double max_jerk;                    //!< [m/s^3] of every component
-  double smoothing;                   //!< [s] time constant of a deviation from the nominal velocity; 0: none
-  double disturbance_filter;          //!< [s] time constant of the disturbance observer; 0: none
-  double timeout;                     //!< [s] if a state is older than the last by more, time was set back
-  bool exact_gradients;               //!< from the response, where it is known
+  std::vector<Vector3> references;  //!< [M] m, places to keep relative to the leader
+  std::vector<Vector3> places;      //!< [A] m, the same of all agents
+  double cycle_time;                //!< [s]
+  bool safety;                      //!< false: the nominal velocity within its limits
+  double gain;                      //!< [1/s]
+  Vector3 weights;                  //!< cost of deviating from the nominal velocity, per axis
+  double max_velocity;              //!< [m/s] of every component
+  double max_acceleration;          //!< [m/s^2] of every component
+  double max_jerk;                  //!< [m/s^3] of every component
+  double smoothing;                 //!< [s] time constant of a deviation from the nominal velocity; 0: none
+  double disturbance_filter;        //!< [s] time constant of the disturbance observer; 0: none
+  double timeout;                   //!< [s] if a state is older than the last by more, time was set back
+  bool exact_gradients;             //!< from the response, where it is known
   HorizonParameters horizon;
   Team team;                          //!< who is commanded, and who else there is
   std::vector<std::string> barriers;  //!< names of the barriers in use, in their order

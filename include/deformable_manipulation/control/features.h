@@ -12,7 +12,7 @@ namespace control {
 //! Which of the computed features are taken.
 struct ChosenFeatures {
   const distance::Distances& distances;
-  int copy = 0;  //!< of the object
+  int copy = 0;                                //!< of the object
   int most = std::numeric_limits<int>::max();  //!< so many, the nearest
 
   const distance::Feature* first() const { return distances.features.data() + distances.offsets[copy]; }

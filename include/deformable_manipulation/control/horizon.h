@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "deformable_manipulation/control/barrier.h"
@@ -12,21 +11,28 @@
 namespace deformable_manipulation {
 namespace control {
 
-//! Looks ahead: what the assistants have to do now so that the limits can still be kept later.
+//! Looks ahead: finds what the assistants have to do now so that the limits can still be kept later
+//! (docs/mathematics.md#horizon).
 //!
-//! The leader is expected to go on with a velocity that fades, the assistants to follow it by the nominal law within
-//! their velocity. At the nodes t_n of the horizon the object rests in the shape that belongs to the held points there.
-//! Departures z_k of the assistants, constant between two nodes, are the variables of a program with all barriers as
-//! linearised about the last plan:
+//! The leader is expected to go on with a velocity that fades, and the assistants to follow it by the nominal law. At
+//! the nodes t_n of the horizon, the object rests in the shape that belongs to the held points there. The variables are
+//! the departures z_k of the assistants from the nominal law, constant between two nodes,
 //!
-//!   min sum_k |diag(weights) z_k|^2  subject to  h(p_n) >= 0 for each node, barrier and assistant,  |u_k| <= u_max.
+//!   min sum_k |diag(weights) z_k|^2  subject to  h(t_n) >= 0 for each node and barrier,  |u_k| <= u_max,
 //!
-//! Each cycle linearises once, and starts from the plan of the cycle before. Where the nominal law breaks no limit, the
-//! departures are zero. The first of them moves the nominal velocity of the present cycle, whose own limits are left
-//! as they are. All assistants are in the plan, whoever commands them: each computes the same plan, and follows its own
-//! part.
+//! with the barriers linearised about the last plan. Distances count less by what the leader may do otherwise,
+//! leader_doubt times its speed and t_n. The program is solved once per cycle and starts from the plan of
+//! the cycle before. If the nominal law breaks no limit within the horizon, the departures are zero. The first of them
+//! changes the nominal velocity of the present cycle, whose own limits stay as they are. All assistants are in the
+//! plan, whoever commands them: each controller computes the same plan and follows its own part.
 class Horizon {
  public:
+  //! How an assistant is expected to follow.
+  struct Follower {
+    Vector3 place;  //!< [m] relative to the leader
+    bool follows;   //!< false: it stands still
+  };
+
   //! @param forecast of the object
   Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectForecast> forecast);
 
@@ -36,49 +42,57 @@ class Horizon {
   //! Forgets the last plan.
   void reset();
 
-  //! What the leader will do, for the next plan alone.
-  //! @param displacements [N] m, of the leader up to each node from where it is when the command begins to act
-  void announce(std::vector<Vector3> displacements) { announced_ = std::move(displacements); }
-
   //! Plans from an observed state.
   //! @param predicted the agents when the command begins to act
-  //! @param places [A] m, of the agents relative to the leader; the leader's is not used
-  void plan(const ObservationView& observation, const PredictedState& predicted, const std::vector<Vector3>& places);
+  //! @param followers [A]; the leader's is not used
+  void plan(const ObservationView& observation, const PredictedState& predicted,
+            const std::vector<Follower>& followers);
 
-  //! [m/s] of an assistant from the nominal velocity, clipped to its limit, for the present cycle.
+  //! [m/s] from the clipped nominal velocity of an assistant, for the present cycle.
   Vector3 departure(int agent) const;
 
  private:
-  void follow(const PredictedState& predicted, const std::vector<Vector3>& places);
+  void expectLeader(const PredictedState& predicted);
+  void follow(const PredictedState& predicted, const std::vector<Follower>& followers);
   void displace();
+  void hold(int agents);
+  void weigh();
   void addLimits(int node);
   void addVelocities();
-  double carried(int from, int to) const;
+  double kept(int from, int to) const;
   Eigen::Index variable(int node, int column) const { return 3 * (node * columns() + column); }
   int columns() const { return static_cast<int>(team_.commanded.size()); }
   double timeOf(int node) const { return (node + 1) * interval_; }
 
   HorizonParameters parameters_;
   Team team_;  // that commands all assistants
-  double interval_ = 0.0;  // [s]
-  double gain_ = 0.0;      // [1/s] of the law with a constant velocity in each interval
-  double kept_ = 0.0;      // of an error after an interval
+  double max_velocity_ = 0.0;
+  double speed_ = 0.0;       // [m/s] of the leader
+  Vector3 weights_at_rest_;  // behind a leader at rest
+  double interval_ = 0.0;    // [s]
+  double gain_ = 0.0;        // [1/s] of the law with a constant velocity in each interval
+  double decay_ = 0.0;       // part of an error that is left after an interval
   std::vector<std::unique_ptr<Barrier>> barriers_;
   std::unique_ptr<SafetyFilter> filter_;
   std::shared_ptr<ObjectForecast> forecast_;
 
-  std::vector<Vector3> announced_;              // [N] m, or none
-  std::vector<Vector3> leader_;                 // [N + 1] m, of its held point, from now on
-  std::vector<std::vector<Vector3>> followed_;  // [M][N + 1] m, of the assistants by the nominal law
-  std::vector<std::vector<Vector3>> speeds_;    // [M][N] m/s, of them
-  std::vector<Vector3> held_;                   // [N x A] m, by the last plan
-  Eigen::VectorXd departures_;                  // [N x M x 3] m/s
-  Eigen::VectorXd displaced_;                   // [N x M x 3] m, from what the nominal law does
+  //! What the nominal law makes of an assistant.
+  struct Path {
+    std::vector<Vector3> positions;   // [N + 1] m
+    std::vector<Vector3> velocities;  // [N] m/s
+    double max_velocity;              // [m/s]
+  };
+
+  std::vector<Vector3> leader_;  // [N + 1] m, its held point
+  std::vector<Path> paths_;      // [M]
+  std::vector<Vector3> held_;    // [N x A] m, by the last plan
+  Eigen::VectorXd departures_;   // [N x M x 3] m/s
+  Eigen::VectorXd displaced_;    // [N x M x 3] m, from the paths
   Eigen::VectorXd zero_;
-  Eigen::VectorXd reach_;
+  Eigen::VectorXd reach_;  // [m/s] of departures
   Features features_;
-  ConstraintRows node_rows_;  // on displacements of a node
-  ConstraintRows rows_;       // on departures
+  ConstraintRows node_rows_;  // on the displacements at a node
+  ConstraintRows rows_;       // on the departures
 };
 
 }  // namespace control

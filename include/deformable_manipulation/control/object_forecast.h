@@ -43,7 +43,7 @@ class ObjectForecast {
   std::shared_ptr<distance::MinimumDistance> distance_;
   std::vector<std::array<int, 3>> triangles_;
   int agents_ = 0;
-  int points_of_shape_ = 0;  // P
+  int points_of_shape_ = 0;               // P
   std::vector<int> place_;                // [nodes] among those known, or -1
   std::vector<double> points_;            // [known x P x 3] m
   std::vector<double> responses_;         // [known x A x P x 3 x 3]

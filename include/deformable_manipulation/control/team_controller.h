@@ -45,9 +45,6 @@ class TeamController {
   //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
   void setForecast(std::shared_ptr<ObjectForecast> forecast);
 
-  //! See Horizon::announce().
-  void announce(std::vector<Vector3> displacements);
-
   //! Number M of assistants that it commands; they are numbered in the order of the parameters.
   int size() const { return static_cast<int>(members_.size()); }
 
@@ -125,9 +122,9 @@ class TeamController {
   std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
   std::vector<Member> members_;
-  std::vector<Vector3> places_;   // [A] m, relative to the leader
-  std::vector<double> response_;  // [A x P x 3 x 3]
-  std::vector<Decision> decisions_;  // [M]
+  std::vector<Horizon::Follower> followers_;  // [A]
+  std::vector<double> response_;              // [A x P x 3 x 3]
+  std::vector<Decision> decisions_;           // [M]
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered
   PresentState present_;

@@ -48,7 +48,7 @@ class MeshObstacle : public Obstacle {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   void minima(const ObjectView& object, Feature* nearest) override;
-  void features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) override;
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;

@@ -13,18 +13,18 @@ namespace distance {
 class MinimumDistance {
  public:
   //! @param margin [m] from the object's centre line or mid-surface to its surface: radius or half thickness
-  //! @param band [m] features up to this much farther than a copy's minimum are reported
+  //! @param band [m] features of copy 0 up to this much farther than its minimum are reported
   //! @throw std::invalid_argument if a length is negative or not finite
   MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band);
 
-  //! The first `detailed` copies get all their features within the band, every other copy only that of its minimum.
+  //! Copy 0 gets all its features within the band, every other copy only that of its minimum.
   //! It depends only on the arguments. The result is valid until the next call.
   //! @throw std::invalid_argument if there is no copy, a copy has fewer than two points, a triangle refers to
   //! a point that does not exist, or a coordinate is not finite or beyond 1e6 m.
-  const Distances& compute(const ObjectView& object, int detailed = 1);
+  const Distances& compute(const ObjectView& object);
 
  private:
-  void addFeatures(const ObjectView& object, int copy);
+  void addFeatures(const ObjectView& object);
 
   std::vector<std::shared_ptr<Obstacle>> obstacles_;
   double margin_;

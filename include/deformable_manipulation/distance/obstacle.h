@@ -21,9 +21,9 @@ class Obstacle {
   //! @param nearest [copies] filled but for `obstacle`
   virtual void minima(const ObjectView& object, Feature* nearest) = 0;
 
-  //! Appends the nearest point of each segment or triangle of a copy whose signed distance is at most `limit` [m], in
+  //! Appends the nearest point of each segment or triangle of copy 0 whose signed distance is at most `limit` [m], in
   //! any order.
-  virtual void features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) = 0;
+  virtual void features(const ObjectView& object, double limit, std::vector<Feature>* found) = 0;
 };
 
 }  // namespace distance

@@ -45,7 +45,7 @@ class PlanarObstacle : public Obstacle {
   void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
 
   void minima(const ObjectView& object, Feature* nearest) override;
-  void features(const ObjectView& object, int copy, double limit, std::vector<Feature>* found) override;
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;

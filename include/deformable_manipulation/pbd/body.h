@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "deformable_manipulation/pbd/response.h"
-#include "deformable_manipulation/pbd/rest_shapes.h"
 #include "deformable_manipulation/pbd/rest.h"
+#include "deformable_manipulation/pbd/rest_shapes.h"
 #include "deformable_manipulation/pbd/types.h"
 
 namespace deformable_manipulation {

@@ -33,7 +33,8 @@ class RodEquilibrium {
 
   //! Finds the equilibria in which the rod would rest if it were held elsewhere, beside its present shape.
   //! @param held [shapes x holds] m, positions of the held points; orientations are those of the rod's holds
-  //! Searches start from the last shapes found, the first ones, and those after a failure, from the rod's present shape.
+  //! Searches start from the last shapes found, the first ones, and those after a failure, from the rod's present
+  //! shape.
   void updateElsewhere(const Rod& rod, const std::vector<Vector3>& held, const EquilibriumOptions& options);
 
   int copyCount() const;

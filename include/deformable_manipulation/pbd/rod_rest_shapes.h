@@ -25,11 +25,13 @@ class RodRestShapes final : public RestShapes {
   void response(int shape, double* to) const override;
 
  private:
+  bool isFarFromPresent() const;
+
   std::unique_ptr<Rod> rod_;
   RodEquilibrium equilibrium_;
   std::vector<int> agent_of_hold_;
-  std::vector<Vector3> held_;             // [shapes x holds] m
-  mutable std::vector<double> response_;  // [holds x P x 3 x 3]
+  std::vector<Vector3> held_;    // [shapes x holds] m
+  std::vector<double> present_;  // [P x 3] m
 };
 
 }  // namespace pbd

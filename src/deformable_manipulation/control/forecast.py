@@ -4,9 +4,6 @@ import dataclasses
 
 
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-import numpy as np
-
-from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.scenario.spec import PathMotion, Scenario
@@ -34,25 +31,11 @@ class Forecast:
                 for agent in scenario.agents
             ]
         )
-        horizon = scenario.controller.horizon
-        self._nodes = horizon.length * np.arange(1, horizon.nodes + 1) / horizon.nodes
-        self._cycle = scenario.cycle_time
-        self._path = None
-        if horizon.leader == "path":
-            self._path = LeaderPath(scenario.leader.waypoints)
         self.triangles = scenario.object.faces()
         self._distance = MinimumDistance(
-            known, scenario.object.margin, scenario.controller.collision.band, self.triangles
+            known, scenario.object.margin, band=0.0, triangles=self.triangles
         )
         self._obstacles = MovingObstacles(dataclasses.replace(scenario, obstacles=known))
-
-    def leader_ahead(self, time):
-        """Displacements (N, 3) [m]."""
-        if self._path is None:
-            return None
-        times = time + self._cycle + np.append(0.0, self._nodes)
-        places = self._path.position(times)
-        return places[1:] - places[0]
 
     @property
     def distance(self):

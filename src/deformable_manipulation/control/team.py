@@ -119,9 +119,6 @@ class TeamController:
             return self._last
         if self._forecast is not None:
             self._forecast.move(observation.time)
-            ahead = self._forecast.leader_ahead(observation.time)
-            if ahead is not None:
-                self._native.announce(ahead)
         answer = self._native.update(observation)
         if answer is not None:
             computation_time = time.perf_counter() - started

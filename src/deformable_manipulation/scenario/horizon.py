@@ -3,10 +3,8 @@
 from dataclasses import dataclass
 
 from deformable_manipulation.geometry.pose import Vector
-from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Choice, Integer, Number, vector
-
-_MOST_NODES = 32
+from deformable_manipulation.reading.parameter import Live, parameter
+from deformable_manipulation.reading.readers import Integer, Number, vector
 
 
 @dataclass(frozen=True)
@@ -15,33 +13,42 @@ class HorizonSpec:
 
     length: float = parameter(
         Number("s", at_least=0.0, at_most=30.0),
-        "How far ahead the controllers look: what cannot be answered later is answered now. 0: "
-        "only the present cycle counts.",
-        default=0.0,
+        "How far ahead the limits are checked. What could not be answered later is answered now. "
+        "Raise it for leaders that are faster than the assistants; 0 looks at the present cycle "
+        "only.",
+        default=3.0,
         paper=0.0,
         native=True,
     )
     nodes: int = parameter(
-        Integer(at_least=1, at_most=_MOST_NODES),
-        "At how many times within it the object, its distances and the limits are predicted. More "
-        "take longer.",
+        Integer(at_least=1, at_most=32),
+        "Number of times within `length` at which the object, its distances and the limits are "
+        "predicted. Eight shapes of a rod cost as much as one.",
         default=8,
         native=True,
     )
-    leader: str = parameter(
-        Choice("fading", "path"),
-        "What the leader is expected to do.",
-        default="fading",
+    leader_fade: float = parameter(
+        Number("s", above=0.0, at_most=1000.0),
+        "Time constant with which the leader's present velocity is expected to fade. Lower it for "
+        "leaders that change direction often.",
+        default=3.0,
+        live=Live(("horizon_leader_fade",), 0.01, 100.0),
+        native=True,
+    )
+    leader_doubt: float = parameter(
+        Number("1", at_least=0.0, at_most=10.0),
+        "How much smaller than predicted a distance may be, per metre that the leader would travel "
+        "at its present speed until then. Raise it where the leader turns without warning.",
+        default=0.2,
+        live=Live(("horizon_leader_doubt",), 0.0, 10.0),
+        native=True,
     )
     weights: Vector = parameter(
         vector("1", at_least=1e-6, at_most=1e6),
-        "Cost of departing from the nominal velocity for the sake of later, per axis.",
+        "Cost per axis of leaving the nominal velocity early, behind a leader that moves at "
+        "`max_velocity` or faster. Behind a slower leader they turn into `controller.weights`. The "
+        "default gives way upwards, from where an assistant can come back.",
         default=(1.0, 1.0, 0.1),
-        native=True,
-    )
-    leader_fade: float = parameter(
-        Number("s", above=0.0, at_most=100.0),
-        "Time constant with which the leader's velocity is expected to fade.",
-        default=1.0,
+        live=Live(("horizon_weight_x", "horizon_weight_y", "horizon_weight_z"), 0.01, 100.0),
         native=True,
     )
