@@ -142,7 +142,8 @@ void Horizon::addLimits(int node) {
   there.velocities.assign(there.positions.size(), Vector3::Zero());
   forecast_->takeFeatures(node, team_.leader, features_);
   for (int m = 0; m < features_.size(); ++m) {
-    const double approach = features_.normal[m].dot(features_.obstacle_velocity[m]);
+    const bool known = team_.formulation.obstacle_velocity;
+    const double approach = known ? features_.normal[m].dot(features_.obstacle_velocity[m]) : 0.0;
     features_.distance[m] -= timeOf(node) * (approach + parameters_.leader_doubt * speed_);
     features_.obstacle_velocity[m].setZero();
   }

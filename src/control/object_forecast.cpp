@@ -25,11 +25,14 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   pbd::RestShapes& shapes = shapes_ != nullptr ? *shapes_ : linear_;
   agents_ = observation.agents;
   const int nodes = static_cast<int>(held.size()) / agents_;
+  place_.assign(static_cast<std::size_t>(nodes), -1);
   points_of_shape_ = shapes.pointCount();
+  if (observation.points != points_of_shape_) {  // it is another object
+    return;
+  }
   const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
   shapes.setPresent(observation.coordinates);
   shapes.find(held);
-  place_.assign(static_cast<std::size_t>(nodes), -1);
   points_.resize(numbers * nodes);
   responses_.resize(3 * numbers * agents_ * nodes);
   int known = 0;

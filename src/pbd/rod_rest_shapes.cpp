@@ -7,9 +7,9 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-// A few steps follow what changes from cycle to cycle. What needs more is found in the cycles that follow, or is no
-// shape that the agents could rely on.
-constexpr EquilibriumOptions kLookingAhead{1e-4, 6};
+// The error left is about the square of the tolerance [rad]. From cycle to cycle a step or two are enough; the first
+// search for a shape may need more.
+constexpr EquilibriumOptions kLookingAhead{1e-4, 20};
 
 constexpr double kFar = 0.1;  // of the length
 

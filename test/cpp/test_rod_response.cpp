@@ -227,6 +227,103 @@ INSTANTIATE_TEST_SUITE_P(
         Grips{"oneHold", {{5, Hold::CLAMPED}}, Stretch::ZERO, 30e6}),
     [](const testing::TestParamInfo<Grips>& info) { return info.param.name; });
 
+//! Shapes that the rope of a fixture would have with its second grip elsewhere.
+struct Elsewhere {
+  RodParameters p = rope();
+  std::unique_ptr<Rod> present = hangingRope(p, 1.5, Hold::CLAMPED);
+  std::vector<HeldPoint> agents{{p.segments - 1, Hold::CLAMPED, gripAt(p, {0.0, 1.5, 0.0}), {}},
+                                {0, Hold::CLAMPED, gripAt(p, Vector3::Zero()), {}}};
+  std::unique_ptr<RestShapes> shapes = Rod(p).restShapes(agents);
+  std::vector<double> points = std::vector<double>(3 * (p.segments + 1));
+
+  Elsewhere() {
+    present->settle(settling());
+    present->points(points.data());
+    shapes->setPresent(points.data());
+  }
+
+  //! Points of the settled rope, held there.
+  std::vector<double> settled(const Vector3& second) const {
+    auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
+    rod->setPose(p.segments - 1, gripAt(p, second));
+    rod->layOut();
+    EXPECT_TRUE(rod->settle(settling()));
+    std::vector<double> result(points.size());
+    rod->points(result.data());
+    return result;
+  }
+
+  std::vector<double> found(int shape) const {
+    std::vector<double> result(points.size());
+    shapes->points(shape, result.data());
+    return result;
+  }
+};
+
+double largestDifference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+TEST(RestShapes, areThoseInWhichTheRodSettles) {
+  Elsewhere elsewhere;
+  const std::vector<Vector3> seconds{{0.0, 1.55, 0.1}, {0.1, 1.3, 0.2}, {-0.2, 1.6, -0.1}};
+  std::vector<Vector3> held;
+  for (const Vector3& second : seconds) {
+    held.push_back(second);
+    held.push_back(Vector3::Zero());
+  }
+  elsewhere.shapes->find(held);
+  for (int shape = 0; shape < 3; ++shape) {
+    ASSERT_TRUE(elsewhere.shapes->known(shape)) << shape;
+    EXPECT_LT(largestDifference(elsewhere.found(shape), elsewhere.settled(seconds[shape])), 1e-3) << shape;
+  }
+}
+
+TEST(RestShapes, haveTheirResponseInTheOrderOfTheAgents) {
+  Elsewhere elsewhere;
+  const Vector3 second(0.05, 1.4, 0.1);
+  const double step = 1e-4;
+  elsewhere.shapes->find(
+      {second, Vector3::Zero(), second + Vector3(0.0, step, 0.0), Vector3::Zero(), second, Vector3(0.0, 0.0, step)});
+  std::vector<double> response(2 * 3 * elsewhere.points.size());
+  elsewhere.shapes->response(0, response.data());
+  const std::vector<double> before = elsewhere.found(0);
+  for (int agent = 0; agent < 2; ++agent) {
+    const int axis = agent + 1;
+    const std::vector<double> after = elsewhere.found(agent + 1);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double derivative = response[3 * (agent * before.size() + k) + axis];
+      EXPECT_NEAR((after[k] - before[k]) / step, derivative, 2e-3);
+    }
+  }
+}
+
+TEST(RestShapes, areUnknownOutOfReach) {
+  Elsewhere elsewhere;
+  elsewhere.shapes->find({{0.0, 2.5, 0.0}, Vector3::Zero(), {0.0, 1.5, 0.0}, Vector3::Zero()});
+  EXPECT_FALSE(elsewhere.shapes->known(0));
+  EXPECT_TRUE(elsewhere.shapes->known(1));
+}
+
+TEST(RestShapes, startAgainWhenTheObjectHasTakenAnotherShape) {
+  Elsewhere elsewhere;
+  const std::vector<Vector3> held{{0.0, 1.5, 0.0}, Vector3::Zero()};
+  elsewhere.shapes->find(held);
+  std::vector<double> turned = elsewhere.points;  // by a half turn about the line through the grips: a rope that stands
+  for (std::size_t i = 0; i < turned.size(); i += 3) {
+    turned[i] = -turned[i];
+    turned[i + 2] = -turned[i + 2];
+  }
+  elsewhere.shapes->setPresent(turned.data());
+  elsewhere.shapes->find(held);
+  // The hanging shape is not taken for the standing one, which is none that could be relied on.
+  EXPECT_FALSE(elsewhere.shapes->known(0) && largestDifference(elsewhere.found(0), turned) > 0.5);
+}
+
 }  // namespace
 }  // namespace pbd
 }  // namespace deformable_manipulation

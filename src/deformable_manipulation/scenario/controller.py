@@ -19,11 +19,10 @@ from deformable_manipulation.reading.readers import (
     Node,
     Number,
     Report,
-    Section,
     vector,
 )
 from deformable_manipulation.scenario.barriers import BARRIERS
-from deformable_manipulation.scenario.horizon import HorizonSpec
+from deformable_manipulation.scenario.horizon import HORIZON, HorizonSpec
 
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
@@ -166,7 +165,7 @@ class _ControllerKeys:
         native=True,
     )
     horizon: HorizonSpec = parameter(
-        Section(HorizonSpec),
+        HORIZON,
         "How far the controllers look ahead, see [mathematics.md](mathematics.md#horizon).",
         default=HorizonSpec(),
         default_text="all defaults",

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.parameter import Live, parameter
-from deformable_manipulation.reading.readers import Integer, Number, vector
+from deformable_manipulation.reading.readers import Integer, Number, Section, vector
 
 
 @dataclass(frozen=True)
@@ -52,3 +52,6 @@ class HorizonSpec:
         live=Live(("horizon_weight_x", "horizon_weight_y", "horizon_weight_z"), 0.01, 100.0),
         native=True,
     )
+
+
+HORIZON = Section(HorizonSpec)

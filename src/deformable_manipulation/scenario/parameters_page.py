@@ -15,6 +15,7 @@ from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.formulation import CONTROLLER
+from deformable_manipulation.scenario.horizon import HORIZON
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
@@ -55,6 +56,7 @@ def sections() -> Dict[str, Any]:
         "leader.waypoints": WAYPOINT,
         "leader.workspace": WORKSPACE,
         "controller": CONTROLLER,
+        "controller.horizon": HORIZON,
         "simulation": SIMULATION,
         "knowledge": KNOWLEDGE,
     }

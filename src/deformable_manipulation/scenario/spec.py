@@ -28,6 +28,7 @@ from deformable_manipulation.scenario.controller import (
     ControllerSpec,
 )
 from deformable_manipulation.scenario.formulation import CONTROLLER
+from deformable_manipulation.scenario.horizon import HorizonSpec
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, KnowledgeSpec
 from deformable_manipulation.scenario.motions import (
     FrameMotion,
@@ -59,6 +60,7 @@ __all__ = [
     "CollisionSpec",
     "ControllerSpec",
     "FabricSpec",
+    "HorizonSpec",
     "FrameMotion",
     "KnowledgeSpec",
     "LeaderSpec",

@@ -11,6 +11,7 @@ from deformable_manipulation.scenario.spec import (
     AgentSpec,
     CollisionSpec,
     ControllerSpec,
+    HorizonSpec,
     LeaderSpec,
     OverstretchSpec,
     ProximitySpec,
@@ -35,6 +36,7 @@ def scenario(assistants=1, waypoints=((0.0, (0.0, 0.0, 0.0)),), **controller):
         collision=CollisionSpec(offset=0.05),
         overstretch=OverstretchSpec(max_distance=2.0),
         proximity=ProximitySpec(min_distance=0.2),
+        horizon=HorizonSpec(length=0.0),  # the present cycle alone; test_horizon.py looks ahead
     )
     settings.update(controller)
     return Scenario(
