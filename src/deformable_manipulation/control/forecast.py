@@ -2,7 +2,6 @@
 
 import dataclasses
 
-
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.objects.body import make_body

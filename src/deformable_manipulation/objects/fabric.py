@@ -69,6 +69,7 @@ class FabricSpec(ObjectSpec):
     type = "fabric"
     jacobian = "perturbed_copies"
     disturbance_filter = 0.0
+    horizon_length = 0.0
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"

@@ -88,6 +88,7 @@ class RodSpec(ObjectSpec):
     type = "rod"
     jacobian = "equilibrium"
     disturbance_filter = 0.1
+    horizon_length = 3.0
     has_joints = True
     is_surface = False
     rviz_example = "rope_one_assistant"

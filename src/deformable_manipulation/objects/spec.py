@@ -16,6 +16,7 @@ class ObjectSpec(ABC):
         type: the word that says its kind in the scenario, and in the C++ core.
         jacobian: where its gradients come from, unless the scenario says so.
         disturbance_filter: time constant [s] of the disturbance observer, likewise.
+        horizon_length: how far [s] its controllers look ahead, likewise.
         has_joints: whether it has joints, which ``simulation.solver`` is for.
         is_surface: whether it is made of triangles, and else a line of its points.
         rviz_example: the scenario whose RViz configuration shows this kind.
@@ -24,6 +25,7 @@ class ObjectSpec(ABC):
     type: ClassVar[str]
     jacobian: ClassVar[str]
     disturbance_filter: ClassVar[float]
+    horizon_length: ClassVar[float]
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]

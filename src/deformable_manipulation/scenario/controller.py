@@ -262,6 +262,8 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     for key in ("jacobian", "disturbance_filter"):
         if getattr(controller, key) is None:
             filled[key] = getattr(spec, key)
+    if controller.horizon.length is None:
+        filled["horizon"] = dataclasses.replace(controller.horizon, length=spec.horizon_length)
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)

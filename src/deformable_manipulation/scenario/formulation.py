@@ -7,6 +7,7 @@ from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import ANY, declared_below
 from deformable_manipulation.reading.readers import Node, Report, Section
 from deformable_manipulation.scenario.controller import PAPER, ControllerSpec
+from deformable_manipulation.scenario.horizon import HORIZON_OF_OBJECT
 
 # The paper's values, by key path: defaults with ``formulation: paper``, and no others are allowed.
 PAPERS = {
@@ -27,7 +28,10 @@ class FormulatedSection(Section):
 
 
 # These depend on the object where they are left out: controller.for_object() fills them in.
-_OF_OBJECT = dict.fromkeys(("jacobian", "disturbance_filter"))
+_OF_OBJECT = {
+    **dict.fromkeys(("jacobian", "disturbance_filter")),
+    "horizon": HORIZON_OF_OBJECT,
+}
 CONTROLLER = FormulatedSection(ControllerSpec, defaults=_OF_OBJECT)
 
 

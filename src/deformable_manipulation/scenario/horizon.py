@@ -15,8 +15,10 @@ class HorizonSpec:
         Number("s", at_least=0.0, at_most=30.0),
         "How far ahead the limits are checked. What could not be answered later is answered now. "
         "Raise it for leaders that are faster than the assistants; 0 looks at the present cycle "
-        "only.",
+        "only. Fabrics are predicted to first order, which helps some of their runs and harms "
+        "others.",
         default=3.0,
+        default_text="`3`; for fabrics `0`",
         paper=0.0,
         native=True,
     )
@@ -54,4 +56,6 @@ class HorizonSpec:
     )
 
 
-HORIZON = Section(HorizonSpec)
+# The length depends on the object where it is left out: controller.for_object() fills it in.
+HORIZON = Section(HorizonSpec, defaults={"length": None})
+HORIZON_OF_OBJECT = HorizonSpec(**HORIZON.defaults)
