@@ -91,6 +91,12 @@ SUBJECT_LIST: Sequence[Subject] = (
         campaigns.measure_moving_obstacles,
     ),
     Subject(
+        {"fast_leaders": SAFETY},
+        "run_campaign SCENARIO --runs N --seed 7 --duration 50 --speed M/S [--set VALUE]",
+        CAMPAIGNS,
+        campaigns.measure_fast_leaders,
+    ),
+    Subject(
         {"terms": SAFETY},
         "run_campaign rope_one_assistant --runs 100 --seed 7 --duration 60 [OPTIONS]",
         CAMPAIGNS,
