@@ -141,6 +141,14 @@ Mapping collision() {
           {"gradient", "features"}};
 }
 
+Mapping horizon() {
+  return {{"length", 0.0},
+          {"nodes", 8},
+          {"leader_fade", 3.0},
+          {"leader_doubt", 0.2},
+          {"weights", numbers({1.0, 1.0, 0.1})}};
+}
+
 Mapping controller(bool exact) {
   return {{"formulation", "full"},
           {"feedforward", true},
@@ -153,6 +161,7 @@ Mapping controller(bool exact) {
           {"smoothing", 0.0},
           {"disturbance_filter", 0.2},
           {"timeout", 0.2},
+          {"horizon", horizon()},
           {"jacobian", exact ? "equilibrium" : "perturbed_copies"},
           {"collision", collision()},
           {"overstretch", pairs(2.0)},
@@ -165,6 +174,7 @@ Mapping team(int commanded) {
                {"assistants", List{1, 2}},
                {"commanded", List{1}},
                {"references", List{numbers({0.0, 0.75, 0.0})}},
+               {"places", List{numbers({0.0, 0.0, 0.0}), numbers({0.0, 0.75, 0.0}), numbers({0.0, 1.5, 0.0})}},
                {"cycle_time", 0.01},
                {"safety", true},
                {"barriers", List{"collision", "overstretch", "proximity"}}};

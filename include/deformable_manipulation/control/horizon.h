@@ -12,7 +12,7 @@ namespace deformable_manipulation {
 namespace control {
 
 //! Looks ahead: finds what the assistants have to do now so that the limits can still be kept later
-//! (docs/mathematics.md#horizon).
+//! (docs/mathematics.md, "Horizon").
 //!
 //! The leader is expected to go on with a velocity that fades, and the assistants to follow it by the nominal law. At
 //! the nodes t_n of the horizon, the object rests in the shape that belongs to the held points there. The variables are
