@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "deformable_manipulation/control/differences.h"
+#include "deformable_manipulation/control/linear_shapes.h"
 #include "deformable_manipulation/control/team_controller.h"
 
 namespace {
@@ -195,6 +197,41 @@ ControllerParameters read(const ParameterValue& controller, const ParameterValue
 
 //! Of the first assistant by its copies, or of both by the exact response.
 ControllerParameters parameters(int commanded = 1) { return read(controller(commanded == 2), team(commanded)); }
+
+TEST(LinearShapes, followTheHeldPointsAsTheCopiesDo) {
+  Chain chain(POINTS);
+  const ObservationView& observation = chain.at(1);
+  Differences differences(AGENTS, 0);
+  differences.update(observation);
+  std::vector<double> response;
+  differences.takeResponse(response);
+  ASSERT_EQ(response.size(), 9u * AGENTS * POINTS);
+
+  std::vector<Vector3> held;
+  for (int agent = 0; agent < AGENTS; ++agent) {
+    held.push_back(observation.position(agent));
+  }
+  LinearShapes shapes;
+  shapes.setResponse(held, response);
+  shapes.setPresent(observation.coordinates);
+  const Vector3 step(0.1, -0.2, 0.3);
+  std::vector<Vector3> moved = held;  // the first assistant alone, then all together
+  moved[1] += step;
+  for (const Vector3& position : held) {
+    moved.push_back(position + step);
+  }
+  shapes.find(moved);
+  std::vector<double> points(3 * POINTS);
+  for (int shape = 0; shape < 2; ++shape) {
+    shapes.points(shape, points.data());
+    for (int point = 0; point < POINTS; ++point) {
+      const double part = shape == 0 ? share(1, point) : 1.0;
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(points[3 * point + i], observation.coordinates[3 * point + i] + part * step[i], 1e-12);
+      }
+    }
+  }
+}
 
 TEST(ControllerParameters, everyMistakeIsToldAtOnce) {
   Mapping wrong = controller(false);
