@@ -8,6 +8,11 @@ namespace deformable_manipulation {
 namespace control {
 namespace {
 
+// Time constant of the plan in multiples of that of departures in the present cycle. Where another point of the object
+// becomes the nearest at a node, each plan may prefer the one that the last plan has moved away from: taken at once,
+// they would alternate from cycle to cycle.
+constexpr double PLAN_SMOOTHING = 2.0;
+
 //! The section of the controller with barriers that demand h(displaced) >= 0 where they demand dh/dt >= -alpha(h).
 ParameterValue demandingPositions(const ControllerParameters& p) {
   ParameterValue::Mapping controller = *p.values.as<ParameterValue::Mapping>();
@@ -45,6 +50,7 @@ void Horizon::setParameters(const ControllerParameters& p) {
   parameters_ = p.horizon;
   team_ = commandingAll(p, p.horizon.length);
   max_velocity_ = p.max_velocity;
+  change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
   weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
   decay_ = std::exp(-p.gain * interval_);
@@ -74,7 +80,7 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   }
   addVelocities();
   weigh();
-  departures_ = filter_->filter(zero_, rows_, -reach_, reach_).velocity;
+  departures_ += change_ * (filter_->filter(zero_, rows_, -reach_, reach_).velocity - departures_);
 }
 
 void Horizon::expectLeader(const PredictedState& predicted) {

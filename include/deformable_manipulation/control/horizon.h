@@ -65,7 +65,8 @@ class Horizon {
   double timeOf(int node) const { return (node + 1) * interval_; }
 
   HorizonParameters parameters_;
-  Team team_;  // that commands all assistants
+  Team team_;            // that commands all assistants
+  double change_ = 1.0;  // part of the way from the last plan to the new one that is taken in a cycle
   double max_velocity_ = 0.0;
   double speed_ = 0.0;       // [m/s] of the leader
   Vector3 weights_at_rest_;  // behind a leader at rest
