@@ -50,6 +50,7 @@ The exit status is 0 if no limit is violated by more than the tolerance, no run 
 deadlocked, and no program failed; 3 otherwise.
 """
 _FASTEST = 2.0  # m/s, of a leader
+_LONGEST = 1e5  # s
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -90,7 +91,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     parser.add_argument(
         "--duration",
-        type=_positive(float),
+        type=_duration,
         default=defaults.duration,
         metavar="S",
         help="duration of each run (%(default)s)",
@@ -124,7 +125,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     )
     parser.add_argument(
         "--tolerance",
-        type=float,
+        type=_not_negative,
         default=0.001,
         metavar="M",
         help="smaller violations do not count (%(default)s)",
@@ -159,6 +160,20 @@ def _positive(kind):
 
     convert.__name__ = "number"
     return convert
+
+
+def _not_negative(text):
+    value = float(text)
+    if not 0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"'{text}': must be a finite number, 0 or more")
+    return value
+
+
+def _duration(text):
+    value = _positive(float)(text)
+    if value > _LONGEST:
+        raise argparse.ArgumentTypeError(f"'{text}': must be at most {_LONGEST:g} s")
+    return value
 
 
 def _speed(text):

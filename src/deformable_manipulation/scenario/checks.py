@@ -42,13 +42,17 @@ def check_loop(report: Report, controller: ControllerSpec) -> None:
                 "it or raise the rate".format(rate),
                 show(list(values) if len(values) > 1 else values[0]),
             )
-    if min(controller.weights) < _WEIGHT_RATIO * max(controller.weights):
-        report.add(
-            ("controller", "weights"),
-            "must not be more than a factor of {:g} apart, or the quadratic program cannot be "
-            "solved reliably".format(1.0 / _WEIGHT_RATIO),
-            show(list(controller.weights)),
-        )
+    for path, weights in (
+        (("weights",), controller.weights),
+        (("horizon", "weights"), controller.horizon.weights),
+    ):
+        if min(weights) < _WEIGHT_RATIO * max(weights):
+            report.add(
+                ("controller",) + path,
+                "must not be more than a factor of {:g} apart, or the quadratic program cannot be "
+                "solved reliably".format(1.0 / _WEIGHT_RATIO),
+                show(list(weights)),
+            )
     if controller.timeout * rate < 1.0:
         report.add(
             ("controller", "timeout"),

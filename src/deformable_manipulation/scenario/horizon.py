@@ -51,6 +51,7 @@ class HorizonSpec:
         "`max_velocity` or faster. Behind a slower leader they turn into `controller.weights`. The "
         "default gives way upwards, from where an assistant can come back.",
         default=(1.0, 1.0, 0.1),
+        allowed="at most a factor of 100 apart",
         live=Live(("horizon_weight_x", "horizon_weight_y", "horizon_weight_z"), 0.01, 100.0),
         native=True,
     )

@@ -57,6 +57,8 @@ WRONG_VALUES = [
     ("controller.rate", 0, "a number"),
     ("controller.gain", -1, "-1 must be a number > 0 [1/s]"),
     ("controller.weights", [1, 1], "[x, y, z]"),
+    ("controller.horizon.weights", [1e6, 1e-6, 1], "factor of 100"),
+    ("controller.horizon.nodes", 0, "a whole number from 1 to 32"),
     ("controller.feedforward", 1, "true or false"),
     ("controller.solver", "quadprg", "did you mean 'quadprog'?"),
     ("controller.formulation", "papers", "did you mean 'paper'?"),
