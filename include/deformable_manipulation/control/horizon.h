@@ -11,6 +11,12 @@
 namespace deformable_manipulation {
 namespace control {
 
+//! How an assistant is expected to follow.
+struct Follower {
+  Vector3 place;  //!< [m] relative to the leader
+  bool follows;   //!< false: it stands still
+};
+
 //! Looks ahead: finds what the assistants have to do now so that the limits can still be kept later
 //! (docs/mathematics.md, "Horizon").
 //!
@@ -27,12 +33,6 @@ namespace control {
 //! plan, whoever commands them: each controller computes the same plan and follows its own part.
 class Horizon {
  public:
-  //! How an assistant is expected to follow.
-  struct Follower {
-    Vector3 place;  //!< [m] relative to the leader
-    bool follows;   //!< false: it stands still
-  };
-
   //! @param forecast of the object
   Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectForecast> forecast);
 

@@ -122,9 +122,9 @@ class TeamController {
   std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
   std::vector<Member> members_;
-  std::vector<Horizon::Follower> followers_;  // [A]
-  std::vector<double> response_;              // [A x P x 3 x 3]
-  std::vector<Decision> decisions_;           // [M]
+  std::vector<Follower> followers_;  // [A]
+  std::vector<double> response_;     // [A x P x 3 x 3]
+  std::vector<Decision> decisions_;  // [M]
   bool answered_ = false;
   double time_ = 0.0;  // [s] of the newest state, if answered
   PresentState present_;
