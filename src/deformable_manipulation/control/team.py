@@ -8,10 +8,11 @@ from deformable_manipulation.control.forecast import Forecast
 from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.reference_solver import find_solver
-from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.status import DetourState, Status
 from deformable_manipulation.scenario.controller import DECENTRALISED
 
 _STATUSES = sorted(Status)
+_DETOURS = sorted(DetourState)
 
 
 def teams(scenario, names=None):
@@ -61,12 +62,21 @@ class TeamController:
         self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
         self._native.set_trusting(trusting)
         self._last = None
-        self._forecast = None
+        self._forecast = Forecast(scenario) if safety else None
         if safety and scenario.controller.horizon.length > 0.0:
-            self._forecast = Forecast(scenario)
-            self._native.look_ahead(
-                self._forecast.shapes, self._forecast.distance, self._forecast.triangles
-            )
+            self._look_ahead()
+        if safety and scenario.controller.detours:
+            self._find_detours()
+
+    def _look_ahead(self):
+        forecast = self._forecast
+        self._native.look_ahead(forecast.make_shapes(), forecast.distance, forecast.triangles)
+
+    def _find_detours(self):
+        forecast = self._forecast
+        if forecast.has_shapes and forecast.knows_all:
+            for number in self._members.values():
+                self._native.find_detours(number, forecast.make_shapes(), forecast.distance)
 
     @property
     def names(self):
@@ -190,14 +200,15 @@ class TeamController:
         }
 
     def _decision(self, native, fault, computation_time):
-        status = _STATUSES[native.status]
+        status, detour = _STATUSES[native.status], _DETOURS[native.detour]
         slack = self._by_barrier(native.slack)
         position, target = native.position, native.target
         return Decision(
             status=status,
-            text=_sentence(status, fault, slack),
+            text=" ".join(filter(None, (_sentence(status, fault, slack), detour.sentence))),
             enabled=native.enabled,
             coordinated=native.coordinated,
+            detour=detour,
             command=native.command,
             nominal=native.nominal,
             position=position,
