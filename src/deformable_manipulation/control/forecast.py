@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+from typing import Optional
 
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
@@ -43,7 +44,7 @@ class Forecast:
         self._make_distance = functools.partial(
             MinimumDistance, known, scenario.object.margin, band=0.0, triangles=self.triangles
         )
-        self._distance = None  # until it is needed
+        self._distance: Optional[MinimumDistance] = None  # until it is needed
         self._obstacles = MovingObstacles(dataclasses.replace(scenario, obstacles=known))
 
     def make_shapes(self):

@@ -62,19 +62,15 @@ class TeamController:
         self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
         self._native.set_trusting(trusting)
         self._last = None
-        self._forecast = Forecast(scenario) if safety else None
-        if safety and scenario.controller.horizon.length > 0.0:
-            self._look_ahead()
-        if safety and scenario.controller.detours:
-            self._find_detours()
+        self._forecast = None
+        if safety:
+            self._forecast = Forecast(scenario)
+            self._use(self._forecast, scenario.controller)
 
-    def _look_ahead(self):
-        forecast = self._forecast
-        self._native.look_ahead(forecast.make_shapes(), forecast.distance, forecast.triangles)
-
-    def _find_detours(self):
-        forecast = self._forecast
-        if forecast.has_shapes and forecast.knows_all:
+    def _use(self, forecast, settings):
+        if settings.horizon.length > 0.0:
+            self._native.look_ahead(forecast.make_shapes(), forecast.distance, forecast.triangles)
+        if settings.detours and forecast.has_shapes and forecast.knows_all:
             for number in self._members.values():
                 self._native.find_detours(number, forecast.make_shapes(), forecast.distance)
 
