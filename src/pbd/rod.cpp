@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "deformable_manipulation/pbd/rod_equilibrium.h"
@@ -10,6 +11,7 @@
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
+#include "rod_viscosity.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -108,22 +110,33 @@ Rod::~Rod() = default;
 std::unique_ptr<Body> Rod::clone() const { return std::unique_ptr<Body>(new Rod(*this)); }
 
 void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
+  static constexpr std::pair<const char*, double RodParameters::*> kKeys[] = {
+      {"young_modulus", &RodParameters::young_modulus},
+      {"torsion_modulus", &RodParameters::torsion_modulus},
+      {"damping", &RodParameters::damping},
+      {"bending_retardation_time", &RodParameters::bending_retardation_time},
+      {"torsion_retardation_time", &RodParameters::torsion_retardation_time}};
   RodParameters changed = parameters_;
   ParameterCheck check;
   for (const MaterialParameter& parameter : parameters) {
-    if (parameter.key == "young_modulus") {
-      changed.young_modulus = parameter.value;
-    } else if (parameter.key == "torsion_modulus") {
-      changed.torsion_modulus = parameter.value;
-    } else if (parameter.key == "damping") {
-      changed.damping = parameter.value;
+    const auto* found = std::find_if(std::begin(kKeys), std::end(kKeys),
+                                     [&](const auto& known) { return parameter.key == known.first; });
+    if (found == std::end(kKeys)) {
+      check.require(false, parameter.key, parameter.value,
+                    "young_modulus, torsion_modulus, damping, bending_retardation_time or torsion_retardation_time");
     } else {
-      check.require(false, parameter.key, parameter.value, "young_modulus, torsion_modulus or damping");
+      changed.*found->second = parameter.value;
     }
   }
   changed.check(check);
   check.throwIfAny();
   parameters_ = changed;
+}
+
+std::vector<MaterialParameter> Rod::dampings() const {
+  return {{"damping", parameters_.damping},
+          {"bending_retardation_time", parameters_.bending_retardation_time},
+          {"torsion_retardation_time", parameters_.torsion_retardation_time}};
 }
 
 double Rod::freeLength(int particle, int other) const {
@@ -219,17 +232,34 @@ void Rod::beginStep(double h) {
   in.segment_length = l;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
-  in.bending_compliance = l / (p.bendingStiffness() * h2);
-  in.torsion_compliance = l / (p.torsionStiffness() * h2);
-  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
-  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
-  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
+  describeJoints(h);
   in.axial_compliance =
       p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : axialCompliance(p.segments) / p.segmentMass();
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
   dampTowardsReference(h);
   state_->connect();
+}
+
+void Rod::describeJoints(double h) {
+  const RodParameters& p = parameters_;
+  RodSubstepInput& in = state_->input;
+  const double h2 = h * h;
+  const double l = p.segmentLength();
+  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
+  in.bending_compliance = l / (p.bendingStiffness() * h2);
+  in.torsion_compliance = l / (p.torsionStiffness() * h2);
+  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
+  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
+  in.viscous = p.bending_retardation_time > 0.0 || p.torsion_retardation_time > 0.0;
+  const JointViscosity viscosity = jointViscosity(p, h);
+  in.bending_viscosity = std::min(viscosity.bending * in.bending_stiffness, rigid);
+  in.torsion_viscosity = std::min(viscosity.torsion * in.torsion_stiffness, rigid);
+  const JointViscosity swept = sweptViscosity(p, h);
+  in.bending_elasticity = 1.0 / (1.0 + swept.bending);
+  in.torsion_elasticity = 1.0 / (1.0 + swept.torsion);
+  in.bending_compliance *= in.bending_elasticity;
+  in.torsion_compliance *= in.torsion_elasticity;
 }
 
 void Rod::updateReferenceMotion() {

@@ -45,6 +45,15 @@ class RodPack {
     return j >= 0 && j + 1 < in_.segments ? load3(multiplier_ + 2 * at3(j), kLanes) : Vec3{};
   }
 
+  //! The same with its torque.
+  DM_INLINE JointWrench lastWrench(int j) const {
+    if (j < 0 || j + 1 >= in_.segments) {
+      return JointWrench{Vec3{}, Vec3{}};
+    }
+    const double* from = multiplier_ + 2 * at3(j);
+    return {load3(from, kLanes), load3(from + 3 * kLanes, kLanes)};
+  }
+
   DM_INLINE void storeWrench(int j, const JointWrench& wrench) {
     double* to = multiplier_ + 2 * at3(j);
     store3(to, kLanes, wrench.force);
@@ -57,6 +66,12 @@ class RodPack {
     Joint joint = jointBetween(q0, d0, q1, d1, load(twist));
     store(twist, joint.twist);
     return joint;
+  }
+
+  //! How far a segment, which now is at an orientation, has turned since the substep began.
+  DM_INLINE Vec3 turnedSince(int i, const Quat& q) const {
+    Quat turned = rotationBetween(load4(previous_orientation_ + at4(i), kLanes), q);
+    return (2.0 * signOf(turned.w)) * turned.v;
   }
 
   //! Moves all segments as if there were no joints, and the held ones to where they are held.

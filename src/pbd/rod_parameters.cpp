@@ -20,6 +20,8 @@ RodParameters RodParameters::read(const ParameterSection& object, const Paramete
   p.torsion_modulus = object.number("torsion_modulus");
   p.stretch = object.choice<Stretch>("stretch", {{"zero", Stretch::ZERO}, {"from_moduli", Stretch::FROM_MODULI}});
   p.damping = object.number("damping");
+  p.bending_retardation_time = object.number("bending_retardation_time");
+  p.torsion_retardation_time = object.number("torsion_retardation_time");
   p.pose = object.section("pose").pose("position", "orientation");
   p.gravity = simulation.vector<3>("gravity");
   p.solver = simulation.choice<RodSolver>("solver",
@@ -35,6 +37,8 @@ void RodParameters::check(ParameterCheck& check) const {
   check.positive("young_modulus", young_modulus, "[Pa]");
   check.positive("torsion_modulus", torsion_modulus, "[Pa]");
   check.notNegative("damping", damping, "[1/s]");
+  check.notNegative("bending_retardation_time", bending_retardation_time, "[s]");
+  check.notNegative("torsion_retardation_time", torsion_retardation_time, "[s]");
   check.require(threads >= 1 && threads <= 256, "threads", threads, "a whole number from 1 to 256");
   check.require(gravity.allFinite(), "gravity", gravity.norm(), "three finite numbers [m/s^2]");
   check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");

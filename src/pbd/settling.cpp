@@ -47,21 +47,23 @@ void requireOptions(const SettleOptions& options) {
 
 }  // namespace
 
-//! Calls settling() with the holds at rest and a damping that is neither too low nor too high.
+//! Calls settling() with the holds at rest and a damping that is neither too low nor too high. Viscosity would let the
+//! object creep.
 template <typename Settling>
 auto Body::quicklyDamped(const SettleOptions& options, Settling settling) {
   requireOptions(options);
   for (HeldPoint& held : holds_) {
     held.twist = Twist();
   }
-  const double own = damping();
-  const double quick = std::min(std::max(own, kLeastDamping), kMostDamping);
-  if (quick == own) {
-    return settling();
+  const std::vector<MaterialParameter> own = dampings();
+  std::vector<MaterialParameter> quick = own;
+  for (MaterialParameter& parameter : quick) {
+    parameter.value = 0.0;
   }
-  setMaterial({{"damping", quick}});
+  quick.front().value = std::min(std::max(own.front().value, kLeastDamping), kMostDamping);
+  setMaterial(quick);
   const auto result = settling();
-  setMaterial({{"damping", own}});
+  setMaterial(own);
   return result;
 }
 

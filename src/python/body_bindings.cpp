@@ -86,6 +86,10 @@ void bindBody(py::module_& module) {
       .def_property_readonly("copy_count", &Body::copyCount, "C, with the object itself.")
       .def_property_readonly("mass", &Body::mass, "Mass [kg].")
       .def_property_readonly("stretch", &Body::stretch, "Relative error of the object's own length or size.")
+      .def(
+          "softness", &Body::softness, py::arg("time_step"), py::arg("substeps"),
+          "Where substeps cannot keep the stiffness or viscosity of the material: what it comes to and what helps, as\n"
+          "sentences; otherwise empty.")
       .def("free_length", &Body::freeLength, py::arg("particle"), py::arg("other"),
            "Largest distance [m] between two particles of the unstretched object.")
       .def(

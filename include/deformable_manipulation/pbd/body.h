@@ -74,7 +74,7 @@ class Body {
   //! Relative error of the length (or size) of the object itself against the unstretched one.
   virtual double stretch() const = 0;
 
-  //! If substeps of this length [s] cannot keep the material's stiffness: sentences about the resulting stiffness and
+  //! If substeps of this length [s] cannot keep the material's stiffness or viscosity: sentences about what results and
   //! about what helps. Otherwise empty.
   virtual std::string softness(double time_step, int substeps) const;
 
@@ -222,8 +222,8 @@ class Body {
   //! Moves a particle of the object itself.
   virtual void displace(int particle, const Vector3& by) = 0;
 
-  //! 1/s
-  virtual double damping() const = 0;
+  //! What takes energy from motion: first the damping [1/s], which settling needs, then what it does without.
+  virtual std::vector<MaterialParameter> dampings() const = 0;
 
   void requireParticle(int particle) const;
 

@@ -74,7 +74,7 @@ class Fabric final : public Body {
   double highestSpeed() const override;
   void stop() override;
   void displace(int particle, const Vector3& by) override;
-  double damping() const override { return parameters_.damping; }
+  std::vector<MaterialParameter> dampings() const override { return {{"damping", parameters_.damping}}; }
 
  private:
   struct State;

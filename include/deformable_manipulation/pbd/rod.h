@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "deformable_manipulation/pbd/body.h"
 #include "deformable_manipulation/pbd/rod_parameters.h"
@@ -21,7 +23,7 @@ class Rod final : public Body {
 
   const RodParameters& parameters() const { return parameters_; }
 
-  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s].
+  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s], bending_retardation_time, torsion_retardation_time [s].
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;
@@ -32,6 +34,7 @@ class Rod final : public Body {
   double freeLength(int particle, int other) const override;
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
   double stretch() const override;
+  std::string softness(double time_step, int substeps) const override;
   Wrench wrench(int particle) const override;
   ResponseStatus response(double* to) override;
   std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
@@ -61,12 +64,13 @@ class Rod final : public Body {
   double highestSpeed() const override;
   void stop() override;
   void displace(int particle, const Vector3& by) override;
-  double damping() const override { return parameters_.damping; }
+  std::vector<MaterialParameter> dampings() const override;
 
  private:
   struct State;
   Rod(const Rod& other);
 
+  void describeJoints(double h);
   void updateReferenceMotion();
   void dampTowardsReference(double h);
   void letReferenceFall();

@@ -29,7 +29,9 @@ struct RodParameters {
   double young_modulus;    //!< [Pa] bending
   double torsion_modulus;  //!< [Pa] twist
   Stretch stretch;
-  double damping;  //!< [1/s] decay rate of motion relative to the held points
+  double damping;                         //!< [1/s] decay rate of motion relative to the held points
+  double bending_retardation_time = 0.0;  //!< [s] viscosity over stiffness of bending (Kelvin-Voigt)
+  double torsion_retardation_time = 0.0;  //!< [s] likewise of twist
   RodSolver solver;
   int threads = 1;  //!< that advance the copies, eight in each; results do not depend on it
   Vector3 gravity;  //!< [m/s^2]
