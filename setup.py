@@ -22,6 +22,7 @@ COMMANDS = (
     "check_scenario",
     "new_scenario",
     "plot_run",
+    "replay",
     "run_campaign",
     "run_scenario",
     "validate",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "deformable_manipulation/pbd/rod_equilibrium.h"
@@ -30,6 +32,9 @@ double axialCompliance(int segments) {
   const double coarser = std::min(1.0, kManySegments / segments);
   return kAxialCompliance * coarser * coarser;
 }
+
+// Of a segment's length: points nearer than that have no direction.
+constexpr double kLeastChord = 1e-3;
 
 // Of the inertia of a free segment: torques do not turn a clamped one.
 constexpr double kClampedInertia = 1e30;
@@ -213,6 +218,56 @@ void Rod::setShape(const double* points) {
   state_->groups.fill(&RodLanes::multiplier, 0.0);
   state_->groups.fill(&RodLanes::twist, 0.0);
   stop();
+}
+
+//! The frame of the first clamped hold runs along the rod, so that the rod is not twisted there.
+void Rod::placeState(const double* points, const double* velocities) {
+  const int n = parameters_.segments;
+  const auto row = [](const double* from, int i) { return Eigen::Map<const Vector3>(from + 3 * i); };
+  std::vector<Vector3> directions(n);
+  for (int i = 0; i < n; ++i) {
+    directions[i] = row(points, i + 1) - row(points, i);
+    if (directions[i].norm() < kLeastChord * parameters_.segmentLength()) {
+      throw std::invalid_argument("points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide");
+    }
+  }
+  setShape(points);
+  const auto clamped =
+      std::find_if(holds().begin(), holds().end(), [](const HeldPoint& held) { return held.type == Hold::CLAMPED; });
+  const int start = clamped != holds().end() ? clamped->particle : 0;
+  Quaternion frame = clamped != holds().end() ? clamped->pose.orientation : pose(0).orientation;
+  const auto carry = [&](int i) {
+    frame = (Quaternion::FromTwoVectors(tangent(frame), directions[i]) * frame).normalized();
+    write4(state_->groups[0].orientation, i, 0, frame);
+    write4(state_->groups[0].previous_orientation, i, 0, frame);
+  };
+  carry(start);
+  const Quaternion middle = frame;
+  for (int i = start + 1; i < n; ++i) {
+    carry(i);
+  }
+  frame = middle;
+  for (int i = start - 1; i >= 0; --i) {
+    carry(i);
+  }
+  closeGaps();
+  for (int i = 0; i < n; ++i) {
+    const Vector3 spreading = row(velocities, i + 1) - row(velocities, i);
+    write3(state_->groups[0].velocity, i, 0, 0.5 * (row(velocities, i) + row(velocities, i + 1)));
+    write3(state_->groups[0].angular_velocity, i, 0,
+           Vector3(directions[i].cross(spreading) / directions[i].squaredNorm()));
+  }
+}
+
+//! Brings the segments end to end by substeps so short that nothing else happens.
+void Rod::closeGaps() {
+  constexpr double kAtOnce = 1e-7;  // s
+  constexpr int kMost = 2000;       // the direct solver needs a few, sweeps many
+  for (int i = 0; i < kMost && std::abs(stretch()) > 1e-9; ++i) {
+    step(kAtOnce, 1);
+    stop();
+  }
+  state_->groups.fill(&RodLanes::multiplier, 0.0);
 }
 
 void Rod::stop() {

@@ -40,7 +40,7 @@ class Rod final : public Body {
   std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
   void layOut() override;
 
-  //! Puts the object itself, at rest, into a measured shape, without a twist of its own.
+  //! Puts the object itself, at rest, into a shape, without a twist of its own.
   //! @param points [(segments + 1) x 3] m; segments lie between them, as long as they are anyway
   void setShape(const double* points);
 
@@ -64,6 +64,7 @@ class Rod final : public Body {
   double highestSpeed() const override;
   void stop() override;
   void displace(int particle, const Vector3& by) override;
+  void placeState(const double* points, const double* velocities) override;
   std::vector<MaterialParameter> dampings() const override;
 
  private:
@@ -71,6 +72,7 @@ class Rod final : public Body {
   Rod(const Rod& other);
 
   void describeJoints(double h);
+  void closeGaps();
   void updateReferenceMotion();
   void dampTowardsReference(double h);
   void letReferenceFall();
