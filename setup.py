@@ -20,6 +20,7 @@ MODULES = ("_control", "_distance", "_pbd")
 COMMANDS = (
     "benchmark",
     "check_scenario",
+    "identify",
     "new_scenario",
     "plot_run",
     "replay",

@@ -12,6 +12,7 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 COMMANDS = (
     "benchmark",
     "check_scenario",
+    "identify",
     "new_scenario",
     "plot_run",
     "replay",

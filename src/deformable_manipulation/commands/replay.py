@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
@@ -68,6 +69,7 @@ def _replay(arguments, measured, shapes) -> int:
         gravity=measured.gravity,
         solver=measured.solver,
         substeps=measured.substeps,
+        aim=arguments.aim,
     )
     replay = Replay(measured.spec, shapes, options)
     softness = replay.softness(measured.spec)
@@ -130,6 +132,15 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "pinned; once per gripper (default: the first two, and the last two)",
     )
     parser.add_argument(
+        "--aim",
+        metavar="Y,Z",
+        type=_angles,
+        action="append",
+        default=[],
+        help="angles [deg] about the grip's y and z axes at which it holds the object, as identify "
+        "finds them; for all grippers, in their order (default: straight)",
+    )
+    parser.add_argument(
         "--begin",
         choices=("measured", "settled"),
         default="measured",
@@ -158,6 +169,16 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="output folder (default: output/NAME OF THE RECORDING)",
     )
     return parser.parse_args(argv)
+
+
+def _angles(text: str) -> Tuple[float, ...]:
+    try:
+        angles = tuple(math.radians(float(item)) for item in text.split(","))
+    except ValueError:
+        angles = ()
+    if len(angles) != 2 or not all(map(math.isfinite, angles)):
+        raise argparse.ArgumentTypeError(f"'{text}' must be two angles [deg], as in 1.5,-3")
+    return angles
 
 
 def held_points(text: str) -> Tuple[int, ...]:

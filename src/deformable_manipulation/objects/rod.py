@@ -172,6 +172,11 @@ class RodSpec(ObjectSpec):
                     "GPa".format(key, modulus)
                 )
 
+    @property
+    def stiffness_over_mass(self) -> float:
+        """Bending stiffness over mass per length, E I / (rho A) [m^4/s^2]."""
+        return self._bending_stiffness() * self.length / self._mass()
+
     def _mass(self) -> float:
         """Of the whole rod [kg]."""
         return self.density * math.pi * self.radius**2 * self.length

@@ -50,9 +50,9 @@ class Replay:
         self.shapes = shapes
         self.options = options
         _check(spec, shapes, options)
-        held = options.held or default_held(len(shapes.arc_lengths))
+        self.held = options.held or default_held(len(shapes.arc_lengths))
         try:
-            self.grips = grips_of(shapes, held, spec.length, spec.segments)
+            self.grips = grips_of(shapes, self.held, spec.length, spec.segments)
         except ValueError as error:
             raise MeasuredShapesError(str(error)) from error
         self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
@@ -141,6 +141,9 @@ def _check(spec: RodSpec, shapes: MeasuredShapes, options: ReplayOptions) -> Non
             f"has {count} points: the default, that grippers hold the first two and the last two, "
             "needs five; say which are held"
         )
+    held = options.held or default_held(count)
+    if options.aim and len(options.aim) != len(held):
+        mistakes.append(f"{len(held)} grippers hold it, but {len(options.aim)} aims are given")
     for numbers in options.held or ():
         if numbers[-1] >= count:
             mistakes.append(

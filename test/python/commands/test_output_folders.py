@@ -6,6 +6,7 @@ import pytest
 
 COMMANDS = {
     "benchmark": ["--list"],
+    "identify": ["swing.csv", "--object", "rope_one_assistant"],
     "new_scenario": ["my_own"],
     "plot_run": ["run"],
     "replay": ["swing.csv", "--object", "rope_one_assistant"],

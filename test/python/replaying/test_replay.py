@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from recordings import OBJECT, ROPE, SUBSTEPS, record, stiffer
+from rope_recordings import OBJECT, ROPE, SUBSTEPS, record, stiffer
 
 from deformable_manipulation.commands.replay import main
 from deformable_manipulation.replaying.difference import calm_frames, difference
