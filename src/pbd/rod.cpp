@@ -119,6 +119,7 @@ void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
       {"young_modulus", &RodParameters::young_modulus},
       {"torsion_modulus", &RodParameters::torsion_modulus},
       {"damping", &RodParameters::damping},
+      {"drag_coefficient", &RodParameters::drag_coefficient},
       {"bending_retardation_time", &RodParameters::bending_retardation_time},
       {"torsion_retardation_time", &RodParameters::torsion_retardation_time}};
   RodParameters changed = parameters_;
@@ -128,7 +129,8 @@ void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
                                      [&](const auto& known) { return parameter.key == known.first; });
     if (found == std::end(kKeys)) {
       check.require(false, parameter.key, parameter.value,
-                    "young_modulus, torsion_modulus, damping, bending_retardation_time or torsion_retardation_time");
+                    "young_modulus, torsion_modulus, damping, drag_coefficient, bending_retardation_time or "
+                    "torsion_retardation_time");
     } else {
       changed.*found->second = parameter.value;
     }
@@ -140,6 +142,7 @@ void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
 
 std::vector<MaterialParameter> Rod::dampings() const {
   return {{"damping", parameters_.damping},
+          {"drag_coefficient", parameters_.drag_coefficient},
           {"bending_retardation_time", parameters_.bending_retardation_time},
           {"torsion_retardation_time", parameters_.torsion_retardation_time}};
 }
@@ -286,6 +289,7 @@ void Rod::beginStep(double h) {
   in.h = h;
   in.segment_length = l;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
+  in.drag = p.dragPerDistance();
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
   describeJoints(h);
   in.axial_compliance =

@@ -51,6 +51,7 @@ struct RodSubstepInput {
   double torsion_compliance;  // l / (G J h^2), times torsion_elasticity
   double bending_stiffness;   // E I h^2 / l, as far as the direct solver can tell it from rigid
   double torsion_stiffness;   // G J h^2 / l, likewise
+  double drag;                // 1/m, speed across the axis that is lost per way through air
   bool viscous;               // whether the joints resist their rate of bending or twisting
   double bending_viscosity;   // of a joint: torque per rotation in a substep, retardation time / h
   double torsion_viscosity;   // times the stiffness

@@ -108,6 +108,9 @@ class RodPack {
     store4(previous_orientation_ + at4(i), kLanes, start.q);
     if (in_.inverse_mass[i] > 0.0) {
       Vec3 v = scaleAdd(h, broadcast3(in_.gravity), load3(velocity_ + at3(i), kLanes));
+      if (in_.drag > 0.0) {
+        v = slowed(v, tangentOf(start.q));
+      }
       store3(position_ + at3(i), kLanes, scaleAdd(h, v, start.x));
     }
     if (in_.inverse_transverse[i] > 0.0) {
@@ -117,6 +120,13 @@ class RodPack {
       Vec3 precession = (in_.inertia_ratio * dot(d, omega)) * cross(omega, d);
       store4(orientation_ + at4(i), kLanes, rotated(start.q, (0.5 * h) * scaleAdd(-h, precession, omega)));
     }
+  }
+
+  //! Velocity after the drag of a substep, which is implicit in the speed.
+  DM_INLINE Vec3 slowed(const Vec3& v, const Vec3& tangent) const {
+    Vec3 across = scaleAdd(-dot(v, tangent), tangent, v);
+    const Pack loss = (in_.drag * in_.h) * squareRoot(dot(across, across));
+    return scaleAdd(-loss / (1.0 + loss), across, v);
   }
 
   void place(const HeldSegment& held) {

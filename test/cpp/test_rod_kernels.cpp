@@ -36,6 +36,7 @@ class RodInput {
     in_.torsion_stiffness = 0.02 * in_.h * in_.h / in_.segment_length;
     in_.bending_compliance = 1.0 / in_.bending_stiffness;
     in_.torsion_compliance = 1.0 / in_.torsion_stiffness;
+    in_.drag = viscous ? 0.5 : 0.0;
     in_.viscous = viscous;
     in_.bending_viscosity = in_.torsion_viscosity = 3.0 * in_.bending_stiffness;
     in_.bending_elasticity = in_.torsion_elasticity = viscous ? 0.25 : 1.0;

@@ -23,7 +23,8 @@ class Rod final : public Body {
 
   const RodParameters& parameters() const { return parameters_; }
 
-  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s], bending_retardation_time, torsion_retardation_time [s].
+  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s], drag_coefficient, bending_retardation_time,
+  //! torsion_retardation_time [s].
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;

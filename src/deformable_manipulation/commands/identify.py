@@ -15,7 +15,14 @@ from deformable_manipulation.commands.replay import held_points
 from deformable_manipulation.reading.errors import ScenarioError
 
 NAME = "identify"
-FITTED = ("young_modulus", "torsion_modulus", "bending_retardation_time", "damping", "aim")
+FITTED = (
+    "young_modulus",
+    "torsion_modulus",
+    "bending_retardation_time",
+    "drag_coefficient",
+    "damping",
+    "aim",
+)
 USUAL = ("young_modulus", "bending_retardation_time", "aim")
 DESCRIPTION = """Fit a simulated rope or rod to recordings of a real one: bending stiffness over
 mass, damping, and the angles at which the grippers hold it. Windows of all recordings are

@@ -13,6 +13,7 @@ _UNITS = {
     "young_modulus": "Pa",
     "torsion_modulus": "Pa",
     "bending_retardation_time": "s",
+    "drag_coefficient": "",
     "damping": "1/s",
 }
 _VAGUE_FACTOR = 0.5  # standard deviation of a logarithm, from which on a value is not told

@@ -10,19 +10,27 @@ import numpy as np
 from deformable_manipulation.objects.rod import RodSpec
 
 AIM = "aim"
-MATERIAL = ("young_modulus", "torsion_modulus", "bending_retardation_time", "damping")
+MATERIAL = (
+    "young_modulus",
+    "torsion_modulus",
+    "bending_retardation_time",
+    "drag_coefficient",
+    "damping",
+)
 
 # What a parameter starts from if the object has none of it: a logarithm needs one.
 _LEAST = {
     "young_modulus": 1.0,
     "torsion_modulus": 1.0,
     "bending_retardation_time": 1e-3,
+    "drag_coefficient": 1e-2,
     "damping": 1e-2,
 }
 _MOST = {
     "young_modulus": 1e13,
     "torsion_modulus": 1e13,
     "bending_retardation_time": 10.0,
+    "drag_coefficient": 100.0,
     "damping": 1e3,
 }
 _MOST_AIM = math.radians(45.0)

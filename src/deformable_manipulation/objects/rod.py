@@ -78,6 +78,13 @@ class RodSpec(ObjectSpec):
         default=10.0,
         native=True,
     )
+    drag_coefficient: float = parameter(
+        Number("", at_least=0.0, at_most=100.0),
+        "Drag in still air across the axis: 1.2 for a round cross-section. Matters for light "
+        "objects that move faster than 1 m/s.",
+        default=0.0,
+        native=True,
+    )
     bending_retardation_time: float = parameter(
         RETARDATION_TIME,
         "Viscosity over stiffness of bending (Kelvin-Voigt): the joints resist being bent quickly. "

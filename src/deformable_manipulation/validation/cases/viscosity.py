@@ -1,4 +1,4 @@
-"""Material damping: how soon the modes of a rod with viscous joints decay; its rest stays."""
+"""Material damping and drag: how soon modes decay, and how fast a rod falls; rest stays."""
 
 from dataclasses import replace
 from typing import List, Tuple
@@ -16,6 +16,7 @@ from deformable_manipulation.validation.result import (
     relative_check,
 )
 from deformable_manipulation.validation.rod import (
+    GRAVITY,
     ROPE,
     STIFF_ROD,
     TIME_STEP,
@@ -26,7 +27,7 @@ from deformable_manipulation.validation.rod import (
     settle,
 )
 
-TITLE = "Viscous joints"
+TITLE = "Viscous joints and drag"
 METHOD = """The joints alone damp, by a torque of tau (the retardation time) times the stiffness
 times the rate of bending or twist: a Kelvin-Voigt material. A mode of angular frequency omega
 then decays at omega^2 tau / 2. Implicit Euler with the substep h adds omega^2 h / 2. Rods with a
@@ -35,7 +36,9 @@ at one end, released from straight under 0.02 m/s^2. Theory: omega = 1.8751^2 sq
 L^4)). *Twisted*: the rope without gravity, clamped at one end and released from 0.5 rad of
 twist. Theory: omega = pi / (2 L) sqrt(G / rho). The Gauss-Seidel solver is compared on the rope,
 whose clamped end swings once in 38 s. *Rest*: the rope at rest, 1.5 m between clamps, becomes
-viscous. It should not move."""
+viscous. It should not move. *Drag*: the rope, level and held nowhere, falls through still air
+with the drag coefficient 1.2. Theory: v = v_t tanh(g t / v_t), v_t^2 = pi r rho g / (1.2
+rho_air)."""
 FREE_LENGTH = 2.2  # m
 BENDING_TIMES = (0.02, 0.1)  # s
 TORSION_TIME = 1e-3  # s
@@ -48,6 +51,10 @@ FREQUENCY_TOLERANCE = 0.5  # %
 DECAY_TOLERANCE = 2.0  # %
 REST_TOLERANCE = 0.05  # mm
 TWIST = 0.5  # rad
+AIR_DENSITY = 1.2  # kg/m^3
+DRAG_COEFFICIENT = 1.2
+FALL_TIME = 2.0  # s
+FALL_TOLERANCE = 0.1  # %
 
 
 def run(quick: bool = False) -> CaseResult:
@@ -66,6 +73,7 @@ def run(quick: bool = False) -> CaseResult:
     case = f"clamped, Gauss-Seidel, tau 0.1 s, {SEGMENTS[0]} segments, {SWEEPS} substeps"
     checks += _compare(case, TIME_STEP / SWEEPS, 0.1, *_swept(SEGMENTS[0], SWEEPS, 0.1))
     checks += [_rest("direct", 2), _rest("gauss_seidel", SWEEPS)]
+    checks += [_fall(solver) for solver in ("direct", "gauss_seidel")]
     for kind in ("clamped", "twisted"):
         of_kind = [c for c in checks if c.quantity.startswith(f"decay, {kind}")]
         curves.append(
@@ -148,6 +156,19 @@ def _twisted(segments, substeps, time):
 
     guess = 0.5 * natural**2 * (time + TIME_STEP / substeps)
     return _ring(rod, amplitude, natural, substeps, guess)
+
+
+def _fall(solver) -> Check:
+    drag = AIR_DENSITY * DRAG_COEFFICIENT / (np.pi * ROPE.density * ROPE.radius)  # 1/m
+    rod = make_rod(ROPE, SEGMENTS[0], damping=0.0, drag_coefficient=DRAG_COEFFICIENT, solver=solver)
+    for _ in range(int(FALL_TIME / TIME_STEP)):
+        rod.step(TIME_STEP, 10)
+    final = np.sqrt(GRAVITY / drag)
+    theory = final * np.tanh(GRAVITY * FALL_TIME / final)
+    measured = -rod.velocities()[:, 2].mean()
+    return relative_check(
+        f"speed after {FALL_TIME:g} s, {solver}", theory, measured, "m/s", FALL_TOLERANCE
+    )
 
 
 def _rest(solver, substeps) -> Check:
