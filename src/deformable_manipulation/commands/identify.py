@@ -4,6 +4,7 @@ import argparse
 import json
 import math
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import List, Optional, Sequence
 
@@ -54,15 +55,19 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         print(error, file=sys.stderr)
     except MeasuredShapesError as error:
         fail(NAME, str(error))
+    except BrokenProcessPool:
+        fail(NAME, "a worker ended, perhaps for lack of memory; try fewer --workers")
     except OSError as error:
         fail(NAME, f"cannot write the results: {error}")
     return 1
 
 
 def _identify(arguments, measured) -> int:
+    from deformable_manipulation.campaign.workers import cores
     from deformable_manipulation.identification.identify import identify
     from deformable_manipulation.identification.parameters import AIM, Parameters
     from deformable_manipulation.identification.problem import windows_of
+    from deformable_manipulation.identification.workers import worker_map
     from deformable_manipulation.replaying.measured_shapes import read_measured_shapes
     from deformable_manipulation.replaying.replay import ReplayOptions, default_held
 
@@ -80,8 +85,10 @@ def _identify(arguments, measured) -> int:
     windows = windows_of(recordings, parameters, options, arguments.window)
     folder = writable_folder(arguments.output or Path("output/identification"))
     progress = ProgressDisplay(sys.stderr)
+    folds = min(arguments.folds, len(recordings))
     try:
-        found = identify(parameters, windows, min(arguments.folds, len(recordings)), progress)
+        with worker_map(arguments.workers or cores()) as each:
+            found = identify(parameters, windows, folds, progress, each)
     finally:
         progress.close()
     _write(folder, found, arguments.recordings, len(windows))
@@ -160,9 +167,12 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--folds",
         metavar="K",
-        type=int,
+        type=_folds,
         default=3,
         help="parts of the recordings that are left out in turn; 0: none (default: 3)",
+    )
+    parser.add_argument(
+        "--workers", type=_count, metavar="N", help="processes (default: one per core)"
     )
     parser.add_argument(
         "--output",
@@ -181,6 +191,18 @@ def _fitted(text: str) -> List[str]:
             f"'{text}' must be some of {', '.join(FITTED)}, separated by commas"
         )
     return names
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number >= 1")
+    return int(text)
+
+
+def _folds(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number >= 0")
+    return int(text)
 
 
 def _positive(text: str) -> float:

@@ -48,15 +48,17 @@ def identify(
     windows: Sequence[Window],
     folds: int,
     progress: Callable[[float], None] = lambda fraction: None,
+    each: Callable = map,
 ) -> Identification:
     """Fit parameters to windows of recordings.
 
     Args:
         folds: into which recordings are divided for cross-validation; 0: none.
         progress: is called with the fraction done.
+        each: like ``map``, for the windows: see :func:`.worker_map`.
     """
     count = _Counter(progress, _planned(parameters, windows, folds))
-    problem = Problem(parameters, windows, count)
+    problem = Problem(parameters, windows, count, each)
     start = _best_of_grid(problem)
     count.advance_to(0.25)
     result = fit(problem, start, _ITERATIONS)
@@ -125,12 +127,12 @@ def _mean(numbers: Sequence[Dict[str, float]]) -> Dict[str, float]:
 def _torsion_matters(problem: Problem, vector: np.ndarray) -> List[float]:
     """Relative change of the mean distance in some windows."""
     spec = problem.parameters.spec
-    few = _spread(problem.windows, _GRID_WINDOWS)
+    few = problem.subset(_spread(problem.windows, _GRID_WINDOWS))
     distances = []
     for factor in (1.0, 1.0 / _TORSION_FACTOR, _TORSION_FACTOR):
         other = dataclasses.replace(spec, torsion_modulus=factor * spec.torsion_modulus)
-        parameters = dataclasses.replace(problem.parameters, spec=other)
-        distances.append(_mean(Problem(parameters, few).mean_errors(vector))["mean_distance"])
+        few.parameters = dataclasses.replace(problem.parameters, spec=other)
+        distances.append(_mean(few.mean_errors(vector))["mean_distance"])
     return [distance / distances[0] - 1.0 for distance in distances[1:]]
 
 

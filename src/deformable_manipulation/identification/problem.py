@@ -1,7 +1,8 @@
 """How far the object with given parameters is from its recordings."""
 
 from dataclasses import dataclass
-from typing import Callable, List, Sequence
+from functools import partial
+from typing import Callable, Dict, List, Sequence
 
 import numpy as np
 
@@ -37,6 +38,14 @@ class Window:
         error = (predicted - shapes.points)[self._frames()][:, self._free_points()]
         return error[np.isfinite(error)]
 
+    def errors(self, parameters: Parameters, vector: np.ndarray) -> Dict[str, float]:
+        """Numbers of :class:`.Difference`."""
+        spec, aim = parameters.object_of(vector), parameters.aim_of(vector)
+        try:
+            return difference(self.replay.shapes, self.replay.run(spec, aim)).numbers
+        except NonFiniteState:
+            return {"mean_per_coordinate": np.inf, "mean_distance": np.inf}
+
     def _frames(self) -> slice:
         step = float(np.median(np.diff(self.replay.shapes.time)))
         return slice(1, None, max(1, round(_SAMPLES / step)))
@@ -53,6 +62,7 @@ class Problem:
         parameters: what is fitted.
         windows: of all recordings.
         tell: called after each evaluation of all windows.
+        each: like ``map``, for the windows.
     """
 
     def __init__(
@@ -60,32 +70,35 @@ class Problem:
         parameters: Parameters,
         windows: Sequence[Window],
         tell: Callable[[], None] = lambda: None,
+        each: Callable = map,
     ):
         self.parameters = parameters
         self.windows = list(windows)
         self._tell = tell
+        self._each = each
 
     def residuals(self, vector: np.ndarray) -> List[np.ndarray]:
         """Of each window, see :meth:`Window.residuals`."""
-        found = [window.residuals(self.parameters, vector) for window in self.windows]
+        found = list(self._each(partial(_residuals, self.parameters, vector), self.windows))
         self._tell()
         return found
 
     def subset(self, windows: Sequence[Window]) -> "Problem":
         """The same with other windows."""
-        return Problem(self.parameters, windows, self._tell)
+        return Problem(self.parameters, windows, self._tell, self._each)
 
     def mean_errors(self, vector: np.ndarray) -> List[dict]:
         """Numbers of :class:`.Difference` of each window."""
-        found = []
-        for window in self.windows:
-            replay = window.replay
-            spec, aim = self.parameters.object_of(vector), self.parameters.aim_of(vector)
-            try:
-                found.append(difference(replay.shapes, replay.run(spec, aim)).numbers)
-            except NonFiniteState:
-                found.append({"mean_per_coordinate": np.inf, "mean_distance": np.inf})
-        return found
+        return list(self._each(partial(_errors, self.parameters, vector), self.windows))
+
+
+# The window last, and at the top level, so that processes can be sent the calls.
+def _residuals(parameters: Parameters, vector: np.ndarray, window: Window) -> np.ndarray:
+    return window.residuals(parameters, vector)
+
+
+def _errors(parameters: Parameters, vector: np.ndarray, window: Window) -> Dict[str, float]:
+    return window.errors(parameters, vector)
 
 
 def windows_of(

@@ -15,6 +15,7 @@ from deformable_manipulation.identification.identify import identify
 from deformable_manipulation.identification.least_squares import fit
 from deformable_manipulation.identification.parameters import AIM, MATERIAL, Parameters
 from deformable_manipulation.identification.problem import Problem, windows_of
+from deformable_manipulation.identification.workers import worker_map
 from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, write_measured_shapes
 from deformable_manipulation.replaying.replay import ReplayOptions
 
@@ -83,6 +84,16 @@ def test_deviations_cover_the_error():
     assert 1e-5 < found.deviations[0] < 0.2
 
 
+def test_processes_find_the_same(recording):
+    parameters = parameters_of("young_modulus")
+    windows = windows_of([recording], parameters, OPTIONS, 0.49)
+    alone = Problem(parameters, windows).residuals(parameters.start())
+    with worker_map(2) as each:
+        together = Problem(parameters, windows, each=each).residuals(parameters.start())
+    for one, other in zip(alone, together):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_a_window_that_is_left_over_is_not_used(recording):
     parameters = parameters_of("young_modulus")
     assert len(windows_of([recording, recording], parameters, OPTIONS, 0.6)) == 4
@@ -125,6 +136,8 @@ class TestCommand:
             (["--fit", "colour"], "must be some of young_modulus"),
             (["--fit", "aim,aim"], "must be some of young_modulus"),
             (["--window", "0"], "must be a number > 0 [s]"),
+            (["--workers", "0"], "must be a whole number >= 1"),
+            (["--folds", "-1"], "must be a whole number >= 0"),
         ],
     )
     def test_refuses_wrong_usage(self, capsys, more, mistake):
