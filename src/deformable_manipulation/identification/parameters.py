@@ -18,7 +18,8 @@ MATERIAL = (
     "damping",
 )
 
-# What a parameter starts from if the object has none of it: a logarithm needs one.
+# What a parameter starts from if the object has none of it.
+_FIRST = {"bending_retardation_time": 0.05, "drag_coefficient": 1.2, "damping": 1.0}
 _LEAST = {
     "young_modulus": 1.0,
     "torsion_modulus": 1.0,
@@ -70,8 +71,8 @@ class Parameters:
 
     def start(self) -> np.ndarray:
         """The vector of the object as it was given, with straight grips."""
-        logs = [math.log(max(getattr(self.spec, key), _LEAST[key])) for key in self.material]
-        return np.array(logs + [0.0] * (2 * self.grips))
+        logs = [math.log(getattr(self.spec, key) or _FIRST[key]) for key in self.material]
+        return self.bounded(np.array(logs + [0.0] * (2 * self.grips)))
 
     def bounded(self, vector: np.ndarray) -> np.ndarray:
         """The nearest vector that has a meaning."""

@@ -84,6 +84,16 @@ def test_deviations_cover_the_error():
     assert 1e-5 < found.deviations[0] < 0.2
 
 
+def test_what_the_object_lacks_is_found():
+    dragged = dataclasses.replace(ROPE, drag_coefficient=20.0, density=300.0)
+    parameters = Parameters(
+        dataclasses.replace(dragged, drag_coefficient=0.0), ("drag_coefficient",), 0
+    )
+    windows = windows_of([record(dragged)], parameters, OPTIONS, 1.49)
+    found = fit(Problem(parameters, windows), parameters.start(), 12)
+    assert math.exp(found.vector[0]) == pytest.approx(20.0, rel=0.02)
+
+
 def test_processes_find_the_same(recording):
     parameters = parameters_of("young_modulus")
     windows = windows_of([recording], parameters, OPTIONS, 0.49)
