@@ -61,6 +61,10 @@ auto Body::quicklyDamped(const SettleOptions& options, Settling settling) {
     parameter.value = 0.0;
   }
   quick.front().value = std::min(std::max(own.front().value, kLeastDamping), kMostDamping);
+  const auto same = [](const MaterialParameter& a, const MaterialParameter& b) { return a.value == b.value; };
+  if (std::equal(own.begin(), own.end(), quick.begin(), same)) {
+    return settling();
+  }
   setMaterial(quick);
   const auto result = settling();
   setMaterial(own);
