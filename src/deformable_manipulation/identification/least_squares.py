@@ -96,8 +96,8 @@ def _normal_equations(derivatives, residuals, scale):
 
 def _deviations(problem: Problem, vector, residuals, scale) -> np.ndarray:
     windows, count = len(residuals), len(vector)
-    if windows < 2:
-        return np.full(count, np.nan)
+    if windows <= count:
+        return np.full(count, np.nan)  # they cannot show how much the parameters scatter
     derivatives = _derivatives(problem, vector, residuals)
     normal, _ = _normal_equations(derivatives, residuals, scale)
     inverse = np.linalg.pinv(normal, rcond=1e-12)
@@ -105,6 +105,5 @@ def _deviations(problem: Problem, vector, residuals, scale) -> np.ndarray:
     for d, r in zip(derivatives, residuals):
         pull = d.T @ (_weights(r, scale) * r)
         scatter += np.outer(pull, pull)
-    variances = np.diag(inverse @ scatter @ inverse) * windows / (windows - 1)
-    # Fewer windows than parameters cannot show how much the parameters scatter.
-    return np.sqrt(variances) if windows > count else np.full(count, np.nan)
+    # The fit follows the windows by as many degrees of freedom as it has parameters.
+    return np.sqrt(np.diag(inverse @ scatter @ inverse) * windows / (windows - count))
