@@ -170,16 +170,12 @@ MeshObstacle::MeshObstacle(const std::vector<Vector3>& vertices, const std::vect
   checkPose(translation, rotation, &problems);
   throwIfAny(problems);
   search_ = std::make_unique<Search>(std::move(parts));
-  setPose(translation, rotation);
+  search_->setPose(translation, rotation, {});
 }
 
 MeshObstacle::~MeshObstacle() = default;
 
-void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
-  std::vector<std::string> problems;
-  checkPose(translation, rotation, &problems);
-  checkTwist(velocity, &problems);
-  throwIfAny(problems);
+void MeshObstacle::place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
   search_->setPose(translation, rotation, velocity);
 }
 

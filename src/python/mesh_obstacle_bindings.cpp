@@ -47,5 +47,4 @@ void bindMeshObstacle(py::module_& module) {
            py::arg("rotation") = identity);
   mesh.def_property_readonly("warnings", &MeshObstacle::warnings,
                              "Sentences about what was dropped or turned, and what has no sign.");
-  bindPose(&mesh);
 }

@@ -39,11 +39,6 @@ class MeshObstacle : public Obstacle {
                const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
   ~MeshObstacle() override;
 
-  //! Moves the obstacle.
-  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
-  //! @throw std::invalid_argument All reasons
-  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
-
   //! Sentences about what was dropped or turned, and what has no sign.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -52,6 +47,8 @@ class MeshObstacle : public Obstacle {
 
  private:
   class Search;
+  void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) override;
+
   std::vector<std::string> warnings_;
   std::unique_ptr<Search> search_;
 };
