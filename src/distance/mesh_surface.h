@@ -38,9 +38,8 @@ class MeshSurface {
   SurfacePoint nearest(const Vector3& point, int hint = -1, double enough = -1.0) const;
 
   //! How far [m] triangles reach along a unit vector.
-  //! @param lowest [m] the result is not less
   //! @param squared_reach [m^2] triangles farther than that from the box need not count
-  double heightAlong(const Vector3& normal, double lowest, const Box& box, double squared_reach) const;
+  double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach) const;
 
   //! The distance [m] of a point to one of the triangles.
   double distanceTo(int triangle, const Vector3& point) const {

@@ -18,6 +18,7 @@ using namespace deformable_manipulation::distance;
 void bindPlanarObstacle(py::module_& module);
 void bindMeshObstacle(py::module_& module);
 void bindPrimitiveObstacle(py::module_& module);
+void bindCloudObstacle(py::module_& module);
 void bindDistances(py::module_& module);
 
 namespace {
@@ -69,6 +70,7 @@ PYBIND11_MODULE(_distance, module) {
   bindPlanarObstacle(module);
   bindMeshObstacle(module);
   bindPrimitiveObstacle(module);
+  bindCloudObstacle(module);
   bindDistances(module);
   py::class_<NamedMinimumDistance, std::shared_ptr<NamedMinimumDistance>>(
       module, "MinimumDistance",

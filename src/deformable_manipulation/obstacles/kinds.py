@@ -3,6 +3,7 @@
 import dataclasses
 from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 
+from deformable_manipulation.obstacles.cloud import CloudObstacle
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.polygon import POLYGON, read_polygon
 from deformable_manipulation.obstacles.primitives import (
@@ -52,6 +53,7 @@ KINDS: Dict[str, Kind] = {
             BoxObstacle,
             CylinderObstacle,
             CapsuleObstacle,
+            CloudObstacle,
         )
     },
 }

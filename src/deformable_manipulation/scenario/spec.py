@@ -14,6 +14,7 @@ from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.objects.kinds import read_object
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.objects.spec import ObjectSpec
+from deformable_manipulation.obstacles.cloud import CloudObstacle
 from deformable_manipulation.obstacles.kinds import read_obstacles
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.motions import (
@@ -64,6 +65,7 @@ __all__ = [
     "AgentSpec",
     "BoxObstacle",
     "CapsuleObstacle",
+    "CloudObstacle",
     "CollisionSpec",
     "ControllerSpec",
     "CylinderObstacle",
