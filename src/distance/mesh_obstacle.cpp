@@ -1,5 +1,11 @@
 #include "deformable_manipulation/distance/mesh_obstacle.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "cell_surface.h"
+#include "coordinate_limit.h"
 #include "local_copies.h"
 #include "mesh_cleaning.h"
 #include "mesh_search.h"
@@ -155,6 +161,30 @@ MeshObstacle::MeshObstacle(const std::vector<Vector3>& vertices, const std::vect
   throwIfAny(problems);
   search_ = std::make_unique<Search>(std::move(parts));
   search_->frame.set(translation, rotation, {});
+}
+
+MeshObstacle::MeshObstacle(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+
+std::shared_ptr<MeshObstacle> MeshObstacle::ofCells(const std::vector<std::array<int, 3>>& cells, double size,
+                                                    bool endless) {
+  std::vector<std::string> problems;
+  if (!(size > 0.0 && size * kLargestCell <= kLargestCoordinate * 1e3)) {
+    problems.push_back("size is " + std::to_string(size) + "; it must be above 0 and at most 1000 m");
+  }
+  if (cells.empty()) {
+    problems.push_back("there is no cube");
+  }
+  const auto is_far = [](const Cell& cell) {
+    return std::any_of(cell.begin(), cell.end(), [](int index) { return std::abs(index) > kLargestCell; });
+  };
+  const auto far = std::find_if(cells.begin(), cells.end(), is_far);
+  if (far != cells.end()) {
+    problems.push_back("cube " + std::to_string(far - cells.begin()) + " is too far away; indices are at most " +
+                       std::to_string(kLargestCell));
+  }
+  throwIfAny(problems);
+  std::vector<MeshPart> parts = {surfaceOfCells(cells, size, endless)};
+  return std::shared_ptr<MeshObstacle>(new MeshObstacle(std::make_unique<Search>(std::move(parts))));
 }
 
 MeshObstacle::~MeshObstacle() = default;

@@ -145,7 +145,8 @@ bool MeshSearch::pieceInside(int certified_piece) {
   for (int piece = 0; surface_.closed() && piece < static_cast<int>(pieces.size()); ++piece) {
     Box point;
     point.include(object_->point(pieces[piece]));
-    if (piece != certified_piece && surface_.box().overlaps(point) && cornerSample(pieces[piece], -1).distance < 0.0) {
+    const bool may_be = surface_.endless() || surface_.box().overlaps(point);
+    if (piece != certified_piece && may_be && cornerSample(pieces[piece], -1).distance < 0.0) {
       return true;
     }
   }
@@ -240,7 +241,7 @@ void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& gue
   for (int element = 0; element < object.size(); ++element) {
     if (!inside && bounds->of(element) < reach + kSlack) {
       (*places)[element] = outsidePlace(element, limit);
-    } else if (inside && touchesBox(element, reach)) {
+    } else if (inside && (surface_.endless() || touchesBox(element, reach))) {
       (*places)[element] = elementPlace(element, limit);
     }
   }

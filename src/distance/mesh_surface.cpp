@@ -12,7 +12,7 @@ constexpr double kTiny = 1e-200;        // m^2
 }  // namespace
 
 MeshSurface::MeshSurface(const MeshPart& part)
-    : vertices_(part.vertices), triangles_(part.triangles), closed_(part.closed) {
+    : vertices_(part.vertices), triangles_(part.triangles), closed_(part.closed), endless_(part.endless) {
   std::vector<Box> leaves(triangles_.size());
   for (std::size_t t = 0; t < leaves.size(); ++t) {
     leaves[t] = boxAround(corners(static_cast<int>(t)));

@@ -24,6 +24,7 @@ class MeshSurface {
   explicit MeshSurface(const MeshPart& part);
 
   bool closed() const { return closed_; }
+  bool endless() const { return endless_; }
   const BoxTree& tree() const { return tree_; }
   const DiscNode& discs(int node) const { return discs_[node]; }
   const Box& box() const { return tree_[0].box; }
@@ -68,7 +69,7 @@ class MeshSurface {
 
   std::vector<Vector3> vertices_;  // m
   std::vector<Triangle> triangles_;
-  bool closed_;
+  bool closed_, endless_;
   BoxTree tree_;
   std::vector<DiscNode> discs_;
   std::vector<Triangle> neighbours_;             // of closed ones only

@@ -17,14 +17,14 @@ _MOST_COLUMNS = 10_000
 class _Field(NamedTuple):
     name: str
     type: str  # of numpy
-    count: int
+    repeated: int  # so many numbers each
 
 
 class _Header(NamedTuple):
     fields: List[_Field]
     points: int
     data: str
-    end: int  # where the points begin
+    begin: int  # where the points do
 
 
 def read(data: bytes) -> np.ndarray:
@@ -41,7 +41,7 @@ def read(data: bytes) -> np.ndarray:
     if header.data == "ascii":
         return _from_text(data, header)
     if header.data == "binary":
-        return _from_records(data[header.end :], header)
+        return _from_records(data[header.begin :], header)
     return _from_columns(data, header)
 
 
@@ -83,8 +83,8 @@ def _fields(lines: Dict[str, List[str]]) -> List[_Field]:
 
 
 def _from_text(data: bytes, header: _Header) -> np.ndarray:
-    starts = np.cumsum([0] + [field.count for field in header.fields])
-    rows = table(data[header.end :].decode("latin-1"), data.count(b"\n", 0, header.end))
+    starts = np.cumsum([0] + [field.repeated for field in header.fields])
+    rows = table(data[header.begin :].decode("latin-1"), data.count(b"\n", 0, header.begin))
     if len(rows) < header.points:
         raise FormatError(_cut_off(len(rows), header.points))
     if rows.shape[1:] != (starts[-1],) and len(rows):
@@ -97,7 +97,7 @@ def _from_text(data: bytes, header: _Header) -> np.ndarray:
 def _from_records(data: bytes, header: _Header) -> np.ndarray:
     record = np.dtype(
         [
-            ("{} {}".format(index, field.name), "<" + field.type, (field.count,))
+            ("{} {}".format(index, field.name), "<" + field.type, (field.repeated,))
             for index, field in enumerate(header.fields)
         ]
     )
@@ -110,16 +110,18 @@ def _from_records(data: bytes, header: _Header) -> np.ndarray:
 
 def _from_columns(data: bytes, header: _Header) -> np.ndarray:
     """Compressed, with all values of one field after another."""
-    sizes = np.frombuffer(data[header.end : header.end + 8], "<u4")
-    whole = sum(np.dtype(each.type).itemsize * each.count for each in header.fields) * header.points
-    if len(sizes) != 2 or sizes[1] != whole or len(data) - header.end - 8 < sizes[0]:
+    sizes = np.frombuffer(data[header.begin : header.begin + 8], "<u4")
+    whole = (
+        sum(np.dtype(each.type).itemsize * each.repeated for each in header.fields) * header.points
+    )
+    if len(sizes) != 2 or sizes[1] != whole or len(data) - header.begin - 8 < sizes[0]:
         raise FormatError("its compressed data are cut off, or not what its header says")
-    begin = header.end + 8
+    begin = header.begin + 8
     values = decompressed(data[begin : begin + int(sizes[0])], whole)
     columns, place = {}, 0
     for field in header.fields:
-        column = np.frombuffer(values, "<" + field.type, header.points * field.count, place)
-        columns[field.name] = column[:: field.count]
+        column = np.frombuffer(values, "<" + field.type, header.points * field.repeated, place)
+        columns[field.name] = column[:: field.repeated]
         place += column.nbytes
     return _stacked(columns)
 

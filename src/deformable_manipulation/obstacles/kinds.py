@@ -14,6 +14,7 @@ from deformable_manipulation.obstacles.primitives import (
     SphereObstacle,
 )
 from deformable_manipulation.obstacles.spec import ObstacleSpec
+from deformable_manipulation.obstacles.voxels import VoxelObstacle
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.readers import (
     Custom,
@@ -54,6 +55,7 @@ KINDS: Dict[str, Kind] = {
             CylinderObstacle,
             CapsuleObstacle,
             CloudObstacle,
+            VoxelObstacle,
         )
     },
 }

@@ -90,7 +90,6 @@ class PolygonObstacle(ObstacleSpec):
     """
 
     kind: ClassVar[str] = "polygon"
-    endless: ClassVar[str] = "endless across its plane"
     name: str = NAME
     points: Points = parameter(
         Polygon(),
@@ -108,8 +107,12 @@ class PolygonObstacle(ObstacleSpec):
         """The rings, of which there may be only one."""
         return rings_of(self.points)
 
-    def problems(self) -> Iterator[str]:
+    @property
+    def endless(self) -> str:
         """See :class:`.ObstacleSpec`, like the others."""
+        return "endless across its plane"
+
+    def problems(self) -> Iterator[str]:
         if self.plane not in PLANE_AXES:
             allowed = ", ".join("'{}'".format(name) for name in PLANE_AXES)
             yield "plane is {!r}; allowed: {}".format(self.plane, allowed)

@@ -80,12 +80,16 @@ class HalfSpaceObstacle(_Primitive):
     """All points on and behind a plane through ``translation``: a table, the ground or a wall."""
 
     kind: ClassVar[str] = "half_space"
-    endless: ClassVar[str] = "endless along and behind its plane"
     name: str = NAME
     half_space: HalfSpace = parameter(_HalfSpaceSection(HalfSpace), "Its normal.")
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+
+    @property
+    def endless(self) -> str:
+        """See :class:`.ObstacleSpec`, like the others."""
+        return "endless along and behind its plane"
 
     @property
     def half_sides(self) -> np.ndarray:

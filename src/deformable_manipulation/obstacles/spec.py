@@ -42,19 +42,22 @@ class ObstacleSpec(ABC):
 
     Attributes:
         kind: the key that says its kind in the scenario.
-        endless: how it goes on beyond its corners, in words; empty: it does not.
         plane: the plane that it is given in, such as ``yz``; None: it is given in space.
         is_around_origin: whether its origin is where it is.
     """
 
     kind: ClassVar[str]
-    endless: ClassVar[str] = ""
     plane: Optional[str] = None
     is_around_origin: ClassVar[bool] = False
     name: str
     translation: Vector
     rotation: Quaternion
     motion: Optional[Motion]
+
+    @property
+    def endless(self) -> str:
+        """How it goes on beyond its corners, in words; empty: it does not."""
+        return ""
 
     @abstractmethod
     def native(self) -> Tuple[Any, List[str]]:

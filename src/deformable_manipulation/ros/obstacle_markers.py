@@ -16,7 +16,7 @@ from deformable_manipulation.obstacles.spec import placed
 # A mesh of more triangles is read from its file by RViz itself, if it knows the format: to send it
 # again and again for viewers that come late would hold up the distances.
 _MOST_TRIANGLES = 1000
-_MOST_DOTS = 20000  # balls or cubes, for the same reason
+_MOST_DOTS = 50000  # balls or cubes, for the same reason
 _FORMATS_OF_RVIZ = (".stl", ".dae", ".obj", ".ply")
 
 # Namespaces of markers.

@@ -33,6 +33,7 @@ from deformable_manipulation.obstacles.primitives import (
     SphereObstacle,
 )
 from deformable_manipulation.obstacles.spec import ObstacleSpec
+from deformable_manipulation.obstacles.voxels import VoxelObstacle
 from deformable_manipulation.reading.names import FRAME, ONE_LINE
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.pose import Pose
@@ -91,6 +92,7 @@ __all__ = [
     "SphereObstacle",
     "TopicMotion",
     "Vector",
+    "VoxelObstacle",
     "Waypoint",
     "WorkspaceSpec",
 ]
