@@ -42,11 +42,11 @@ class PrimitiveObstacle::Search {
       }
       ConvexPlace least;
       std::array<int, 3> least_element = {0, 0, 0};
-      for (int e = 0; e < sizeOf(object); ++e) {
-        const std::array<int, 3> element = elementOf(object, e);
-        const double bound = ConvexSearch::lowerBound(cornersOf(element), countOf(object));
+      for (int e = 0; e < object.elements(); ++e) {
+        const std::array<int, 3> element = object.element(e);
+        const double bound = ConvexSearch::lowerBound(cornersOf(element), object.cornersOfElement());
         if (bound <= upper + kSlack && bound < least.distance - kNotBetter) {
-          const ConvexPlace found = search_.minimum(cornersOf(element), countOf(object));
+          const ConvexPlace found = search_.minimum(cornersOf(element), object.cornersOfElement());
           if (found.distance < least.distance) {
             least = found;
             least_element = element;
@@ -60,10 +60,10 @@ class PrimitiveObstacle::Search {
 
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
     bring(object, 0);
-    for (int e = 0; e < sizeOf(object); ++e) {
-      const std::array<int, 3> element = elementOf(object, e);
-      if (ConvexSearch::lowerBound(cornersOf(element), countOf(object)) <= limit + kSlack) {
-        const ConvexPlace place = search_.minimum(cornersOf(element), countOf(object));
+    for (int e = 0; e < object.elements(); ++e) {
+      const std::array<int, 3> element = object.element(e);
+      if (ConvexSearch::lowerBound(cornersOf(element), object.cornersOfElement()) <= limit + kSlack) {
+        const ConvexPlace place = search_.minimum(cornersOf(element), object.cornersOfElement());
         if (place.distance <= limit) {
           found->push_back(featureAt(object, 0, element, place));
         }
@@ -72,16 +72,6 @@ class PrimitiveObstacle::Search {
   }
 
  private:
-  static int sizeOf(const ObjectView& object) {
-    return object.triangles == nullptr ? object.point_count - 1 : object.triangle_count;
-  }
-  static int countOf(const ObjectView& object) { return object.triangles == nullptr ? 2 : 3; }
-
-  //! Geometry points of an element; those of a segment: start, end, end.
-  static std::array<int, 3> elementOf(const ObjectView& object, int index) {
-    return object.triangles == nullptr ? std::array<int, 3>{index, index + 1, index + 1} : object.triangles[index];
-  }
-
   std::array<const ConvexSample*, 3> cornersOf(const std::array<int, 3>& element) const {
     return {&samples_[element[0]], &samples_[element[1]], &samples_[element[2]]};
   }

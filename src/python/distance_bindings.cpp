@@ -19,6 +19,7 @@ void bindPlanarObstacle(py::module_& module);
 void bindMeshObstacle(py::module_& module);
 void bindPrimitiveObstacle(py::module_& module);
 void bindCloudObstacle(py::module_& module);
+void bindFieldObstacle(py::module_& module);
 void bindDistances(py::module_& module);
 
 namespace {
@@ -71,6 +72,7 @@ PYBIND11_MODULE(_distance, module) {
   bindMeshObstacle(module);
   bindPrimitiveObstacle(module);
   bindCloudObstacle(module);
+  bindFieldObstacle(module);
   bindDistances(module);
   py::class_<NamedMinimumDistance, std::shared_ptr<NamedMinimumDistance>>(
       module, "MinimumDistance",

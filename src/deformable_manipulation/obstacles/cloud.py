@@ -1,12 +1,11 @@
 """Points as balls of one radius."""
 
-import os
 from dataclasses import dataclass
 from typing import Any, ClassVar, List, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.cloud_files import FORMATS, CloudError, read_cloud
+from deformable_manipulation.geometry.cloud_files import FORMATS, read_cloud
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Dots, Drawing
 from deformable_manipulation.obstacles.motions import Motion
@@ -17,33 +16,15 @@ from deformable_manipulation.obstacles.spec import (
     TRANSLATION,
     ObstacleSpec,
 )
+from deformable_manipulation.reading.files import CheckedFile
 from deformable_manipulation.reading.origin import SPACE_ORIGIN, origin_beside
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Node, Number
-from deformable_manipulation.system.package_files import resolve_file
+from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number
 
-
-class CloudFile:
-    """The name of a file of points; returns its absolute path.
-
-    The file is read, so that what is wrong with it is found together with all other mistakes,
-    unless that has been done before (:attr:`Node.files_are_read`).
-    """
-
-    type, unit, range = "file", "", ""
-    allowed = "the name of a file of points ({})".format(FORMATS)
-
-    def __call__(self, node: Node) -> str:
-        if not isinstance(node.value, str) or not node.value:
-            node.fail("must be {}".format(self.allowed))
-        if node.files_are_read:
-            return node.value
-        try:
-            path = os.path.abspath(str(resolve_file(node.value, node.directory)))
-            read_cloud(path, origin_beside(node, 3))
-        except (CloudError, FileNotFoundError) as error:
-            node.fail(str(error))
-        return path
+_CLOUD_FILE = CheckedFile(
+    "the name of a file of points ({})".format(FORMATS),
+    lambda path, node: read_cloud(path, origin_beside(node, 3)),
+)
 
 
 @dataclass(frozen=True)
@@ -56,7 +37,7 @@ class CloudObstacle(ObstacleSpec):
     kind: ClassVar[str] = "cloud"
     name: str = NAME
     cloud: str = parameter(
-        CloudFile(), "PCD, PLY, XYZ or NPY; any number of points.", allowed="see below"
+        _CLOUD_FILE, "PCD, PLY, XYZ or NPY; any number of points.", allowed="see below"
     )
     radius: float = parameter(
         Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),

@@ -4,6 +4,7 @@ import dataclasses
 from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 
 from deformable_manipulation.obstacles.cloud import CloudObstacle
+from deformable_manipulation.obstacles.field import FieldObstacle
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.polygon import POLYGON, read_polygon
 from deformable_manipulation.obstacles.primitives import (
@@ -56,6 +57,7 @@ KINDS: Dict[str, Kind] = {
             CapsuleObstacle,
             CloudObstacle,
             VoxelObstacle,
+            FieldObstacle,
         )
     },
 }

@@ -1,6 +1,5 @@
 """Occupied cells of a map as cubes."""
 
-import os
 from dataclasses import dataclass
 from typing import Any, ClassVar, List, Optional, Tuple
 
@@ -22,39 +21,25 @@ from deformable_manipulation.obstacles.spec import (
     TRANSLATION,
     ObstacleSpec,
 )
+from deformable_manipulation.obstacles.unknown_space import FREE, OCCUPIED, UNKNOWN
+from deformable_manipulation.reading.files import CheckedFile
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Choice, Node
-from deformable_manipulation.system.package_files import resolve_file
-
-FREE, OCCUPIED = "free", "occupied"
+from deformable_manipulation.reading.readers import Node
 
 
-class MapFile:
-    """The name of a file with a map; returns its absolute path.
+def _read(path: str, node: Node) -> None:
+    """Read a map, which must have cells of the kind that its surface is around."""
+    cells = read_octomap(path)
+    section = node.section if isinstance(node.section, dict) else {}
+    if section.get("unknown") == FREE and not len(cells.occupied):
+        raise OctomapError("{} has no occupied cell".format(path))
+    if section.get("unknown") == OCCUPIED and not len(cells.free):
+        raise OctomapError(
+            "{} has no free cell, and all that is unknown shall be occupied".format(path)
+        )
 
-    The file is read, so that what is wrong with it is found together with all other mistakes,
-    unless that has been done before (:attr:`Node.files_are_read`).
-    """
 
-    type, unit, range = "file", "", ""
-    allowed = "the name of a map ({})".format(FORMATS)
-
-    def __call__(self, node: Node) -> str:
-        if not isinstance(node.value, str) or not node.value:
-            node.fail("must be {}".format(self.allowed))
-        if node.files_are_read:
-            return node.value
-        try:
-            path = os.path.abspath(str(resolve_file(node.value, node.directory)))
-            cells = read_octomap(path)
-        except (OctomapError, FileNotFoundError) as error:
-            node.fail(str(error))
-        section = node.section if isinstance(node.section, dict) else {}
-        if section.get("unknown") == FREE and not len(cells.occupied):
-            node.fail("has no occupied cell")
-        if section.get("unknown") == OCCUPIED and not len(cells.free):
-            node.fail("has no free cell, and all that is unknown shall be occupied")
-        return path
+_MAP_FILE = CheckedFile("the name of a map ({})".format(FORMATS), _read)
 
 
 @dataclass(frozen=True)
@@ -64,10 +49,10 @@ class VoxelObstacle(ObstacleSpec):
     kind: ClassVar[str] = "voxels"
     name: str = NAME
     voxels: str = parameter(
-        MapFile(), "OctoMap's `.bt` or `.ot`.", allowed="at most 20 million cells"
+        _MAP_FILE, "OctoMap's `.bt` or `.ot`.", allowed="at most 20 million cells"
     )
     unknown: str = parameter(
-        Choice(FREE, OCCUPIED),
+        UNKNOWN,
         "What is unknown to the map, and all outside of it. `occupied` is the safe choice; it "
         "needs a map whose free space has been seen. With `free`, the object may go where nobody "
         "has looked.",

@@ -15,6 +15,7 @@ from deformable_manipulation.objects.kinds import read_object
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.obstacles.cloud import CloudObstacle
+from deformable_manipulation.obstacles.field import FieldObstacle
 from deformable_manipulation.obstacles.kinds import read_obstacles
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.motions import (
@@ -71,6 +72,7 @@ __all__ = [
     "ControllerSpec",
     "CylinderObstacle",
     "FabricSpec",
+    "FieldObstacle",
     "HorizonSpec",
     "FrameMotion",
     "HalfSpaceObstacle",
