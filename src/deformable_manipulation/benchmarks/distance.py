@@ -77,8 +77,8 @@ def _meshes(request: Request) -> List[Table]:
         builds.rows.append({"faces": faces, **row})
         for case, height in HEIGHTS.items():
             body = fabric(COPIES, height=height)
-            candidates = own_calls(obstacle, body.faces())
-            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.faces())))
+            candidates = own_calls(obstacle, body.triangles)
+            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.triangles)))
             if faces <= MOST_FOR_TRIMESH:
                 candidates.append((TrimeshVertices.name, TrimeshVertices(*mesh)))
             for name, call in candidates:
@@ -100,6 +100,6 @@ def _growth(request: Request) -> Table:
         particles = body.states.shape[2]
         request.say(f"{particles} particles, {copies} copies")
         labels = {"faces": len(mesh[1]), "particles": particles, "copies": copies}
-        call = own_calls(obstacle, body.faces())[0][1]
+        call = own_calls(obstacle, body.triangles)[0][1]
         table.rows.append({**labels, **timed(call, body, request)})
     return table

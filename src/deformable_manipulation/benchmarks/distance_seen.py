@@ -59,7 +59,7 @@ def measure_seen(request: Request) -> List[Table]:
         obstacle, row = built(make, *arguments)
         builds.rows.append({"obstacle": name, **row})
         for case, body in _bodies():
-            candidates = own_calls(obstacle, body.faces())
+            candidates = own_calls(obstacle, body.triangles)
             candidates += [(SciPyTree.name, rival)] if rival else []
             for what, call in candidates:
                 request.say(f"{name}, {case}, {what}")

@@ -27,7 +27,7 @@ def own_calls(obstacle, triangles) -> list:
         calculator = _distance.MinimumDistance([obstacle], 0.0, band)
 
         def call(points, calculator=calculator):
-            return calculator.compute(points, triangles)[0]
+            return calculator.compute(points, triangles).minimum
 
         found.append((f"deformable_manipulation, {name}", call))
     return found
