@@ -16,6 +16,11 @@ struct CellExpansion {
   double xy, yz, zx, xyz;
 };
 
+//! Between what values a function's slopes along the axes are.
+struct SlopeRange {
+  Vector3 least = Vector3::Constant(INFINITY), most = Vector3::Constant(-INFINITY);
+};
+
 //! Numbers on a grid with trilinear interpolation. The grid's first point is the origin.
 class DistanceField {
  public:
@@ -41,17 +46,27 @@ class DistanceField {
   //! A lower bound of the function in all cells between two of them, by blocks of at least one cell.
   double least(const Index& from, const Index& to) const;
 
+  //! Bounds of its slopes there, by blocks of at least two cells along each axis.
+  SlopeRange slopes(const Index& from, const Index& to) const;
+
  private:
-  //! The least numbers of blocks of cells.
+  //! Slopes along an axis.
+  struct Slopes {
+    float least = INFINITY, most = -INFINITY;
+  };
+
+  //! The least numbers, and the slopes, of blocks of cells.
   struct Level {
     Index size;
     std::vector<float> least;
+    std::vector<std::array<Slopes, 3>> slopes;
 
     std::size_t place(int x, int y, int z) const { return (static_cast<std::size_t>(x) * size[1] + y) * size[2] + z; }
   };
 
   static Level merged(const Level& below, int stride);
-  double steepest() const;
+  const Level& levelOf(const Index& from, const Index& to, int* shift) const;
+  std::vector<std::array<Slopes, 3>> slopesOfCells() const;
   float at(int x, int y, int z) const { return values_[(static_cast<std::size_t>(x) * size_[1] + y) * size_[2] + z]; }
 
   std::vector<float> values_;  // m

@@ -70,19 +70,45 @@ FieldSample FieldSearch::within(const CellExpansion& f, const Vector3& beyond) c
 }
 
 double FieldSearch::lowerBound(const Corners<3>& corners) const {
-  Vector3 low = corners[0], high = corners[0];
+  Vector3 low = corners[0], high = corners[0], sum = Vector3::Zero();
   for (const Vector3& corner : corners) {
     low = low.cwiseMin(corner);
     high = high.cwiseMax(corner);
+    sum += corner;
   }
-  double bound = field_.least(field_.cellOf(low), field_.cellOf(high));
-  if (!is_free_) {  // the border's distance is concave
-    Vector3 unused;
-    for (const Vector3& corner : corners) {
-      bound = std::min(bound, borderDistance(corner, &unused));
-    }
+  const DistanceField::Index from = field_.cellOf(low), to = field_.cellOf(high);
+  double bound = std::max(field_.least(from, to), bySlopes(corners, sum / 3.0, low, high));
+  if (is_free_) {
+    const Vector3 gap = (-high).cwiseMax(low - field_.extent()).cwiseMax(0.0);
+    return bound > 0.0 ? std::hypot(bound, gap.norm()) : bound;
+  }
+  Vector3 unused;
+  for (const Vector3& corner : corners) {  // the border's distance is concave
+    bound = std::min(bound, borderDistance(corner, &unused));
   }
   return bound;
+}
+
+//! A lower bound [m] of the field on an element: from its middle it falls no faster than the slopes around let it, and
+//! that is least at a corner.
+double FieldSearch::bySlopes(const Corners<3>& corners, const Vector3& middle, const Vector3& low,
+                             const Vector3& high) const {
+  SlopeRange slopes = field_.slopes(field_.cellOf(low), field_.cellOf(high));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (high[axis] <= 0.0 || low[axis] >= field_.extent()[axis]) {
+      slopes.least[axis] = slopes.most[axis] = 0.0;  // what is beyond the border is as the border
+    } else if (low[axis] < 0.0 || high[axis] > field_.extent()[axis]) {
+      slopes.least[axis] = std::min(slopes.least[axis], 0.0);
+      slopes.most[axis] = std::max(slopes.most[axis], 0.0);
+    }
+  }
+  const Vector3 on_border = middle - beyondField(middle, field_.extent());
+  double fall = INFINITY;
+  for (const Vector3& corner : corners) {
+    const Vector3 arm = corner - middle;
+    fall = std::min(fall, slopes.least.cwiseProduct(arm).cwiseMin(slopes.most.cwiseProduct(arm)).sum());
+  }
+  return field_.expand(field_.cellOf(on_border), on_border).value + fall - 1e-9;
 }
 
 FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double limit) {

@@ -47,7 +47,7 @@ class FieldSearch {
   //! @param count of the corners: 2 or 3
   FieldPlace minimum(const Corners<3>& corners, int count, double limit);
 
-  static constexpr double kTolerance = 1e-6;  // m
+  static constexpr double kTolerance = 1e-5;  // m
 
  private:
   struct Piece {
@@ -55,6 +55,7 @@ class FieldSearch {
     std::array<Weights, 3> weights;
   };
 
+  double bySlopes(const Corners<3>& corners, const Vector3& middle, const Vector3& low, const Vector3& high) const;
   double borderDistance(const Vector3& point, Vector3* gradient) const;
   FieldSample within(const CellExpansion& f, const Vector3& beyond) const;
   double cellBound(const Piece& piece) const;

@@ -11,7 +11,7 @@ namespace distance {
 
 //! Signed distances on a grid, interpolated trilinearly.
 //!
-//! The least one over a segment or triangle is exact to 1e-6 m. Normals are along the field's gradient; where that is
+//! The least one over a segment or triangle is exact to 1e-5 m. Normals are along the field's gradient; where that is
 //! zero, along the obstacle's z axis. The obstacle's point lies at the field's distance along the normal.
 //!
 //! Outside of the grid nothing is known. As free space, it has no obstacle but those in the grid: distances there are

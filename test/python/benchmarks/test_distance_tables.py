@@ -30,7 +30,9 @@ def test_every_table_has_rows_of_positive_times(tables):
         assert table.rows
         for row in table.rows:
             assert set(row) >= {column.key for column in table.columns}
-            assert row.get("median_us", 1.0) >= row.get("minimum_us", 0.0) > 0.0 or "build_ms" in row
+            assert (
+                row.get("median_us", 1.0) >= row.get("minimum_us", 0.0) > 0.0 or "build_ms" in row
+            )
 
 
 def test_all_kinds_of_obstacles_are_there(tables):
