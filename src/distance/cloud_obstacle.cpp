@@ -162,7 +162,7 @@ class CloudObstacle::Search {
   std::vector<PointPlace> places_;
 };
 
-CloudObstacle::CloudObstacle(std::shared_ptr<const PointCloud> cloud, double radius) {
+CloudObstacle::CloudObstacle(const std::shared_ptr<const PointCloud>& cloud, double radius) {
   std::vector<std::string> problems;
   if (!(radius >= 0.0 && radius <= kLargestCoordinate)) {
     std::ostringstream text;
@@ -171,12 +171,12 @@ CloudObstacle::CloudObstacle(std::shared_ptr<const PointCloud> cloud, double rad
   }
   throwIfAny(problems);
   search_ = std::make_unique<Search>(radius);
-  setCloud(std::move(cloud));
+  setCloud(cloud);
 }
 
 CloudObstacle::~CloudObstacle() = default;
 
-void CloudObstacle::setCloud(std::shared_ptr<const PointCloud> cloud) {
+void CloudObstacle::setCloud(const std::shared_ptr<const PointCloud>& cloud) {
   if (cloud == nullptr) {
     throwIfAny({"there is no cloud; without points, give one that is empty"});
   }

@@ -48,12 +48,12 @@ class CloudObstacle : public Obstacle {
  public:
   //! @param radius [m] of the balls, may be 0
   //! @throw std::invalid_argument the radius is negative or not finite, or there is no cloud
-  CloudObstacle(std::shared_ptr<const PointCloud> cloud, double radius);
+  CloudObstacle(const std::shared_ptr<const PointCloud>& cloud, double radius);
   ~CloudObstacle() override;
 
   //! Another cloud from the next call on.
   //! @throw std::invalid_argument there is none
-  void setCloud(std::shared_ptr<const PointCloud> cloud);
+  void setCloud(const std::shared_ptr<const PointCloud>& cloud);
 
   void minima(const ObjectView& object, Feature* nearest) override;
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
