@@ -71,7 +71,7 @@ class BagWriter:
         }
         for field in (
             "distance exact_jacobian leader_drift rows solve_time computation_time error_norm "
-            "enabled"
+            "enabled coordinated"
         ).split():
             values[field] = getattr(decision, field)
         values.update(
