@@ -42,12 +42,13 @@ Priority afterFirst(const Priority& priority) {
 }  // namespace
 
 Horizon::Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectForecast> forecast)
-    : forecast_(std::move(forecast)) {
+    : leader_forecast_(parameters.horizon), forecast_(std::move(forecast)) {
   setParameters(parameters);
 }
 
 void Horizon::setParameters(const ControllerParameters& p) {
   parameters_ = p.horizon;
+  leader_forecast_.setParameters(p.horizon);
   team_ = commandingAll(p, p.horizon.length);
   max_velocity_ = p.max_velocity;
   change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
@@ -65,11 +66,14 @@ void Horizon::setParameters(const ControllerParameters& p) {
   }
 }
 
-void Horizon::reset() { departures_.setZero(3 * parameters_.nodes * columns()); }
+void Horizon::reset() {
+  departures_.setZero(3 * parameters_.nodes * columns());
+  leader_forecast_.reset();
+}
 
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,
                    const std::vector<Follower>& followers) {
-  expectLeader(predicted);
+  leader_forecast_.look(observation, predicted);
   follow(predicted, followers);
   displace();
   hold(observation.agents);
@@ -83,18 +87,9 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   departures_ += change_ * (filter_->filter(zero_, rows_, -reach_, reach_).velocity - departures_);
 }
 
-void Horizon::expectLeader(const PredictedState& predicted) {
-  speed_ = predicted.leaderVelocity().norm();
-  leader_.assign(1, predicted.positions[team_.leader]);
-  for (int node = 0; node < parameters_.nodes; ++node) {
-    const double fade = parameters_.leader_fade;
-    const Vector3 fading = fade * (1.0 - std::exp(-timeOf(node) / fade)) * predicted.leaderVelocity();
-    leader_.push_back(leader_[0] + fading);
-  }
-}
-
 //! What becomes of the assistants by the nominal law, within their velocity.
 void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
+  const std::vector<Vector3>& leader = leader_forecast_.positions();
   paths_.resize(columns());
   for (int column = 0; column < columns(); ++column) {
     const int agent = team_.commanded[column];
@@ -103,8 +98,8 @@ void Horizon::follow(const PredictedState& predicted, const std::vector<Follower
     path.positions.assign(1, predicted.positions[agent]);
     path.velocities.clear();
     for (int node = 0; node < parameters_.nodes; ++node) {
-      const Vector3 error = leader_[node] + followers[agent].place - path.positions[node];
-      const Vector3 nominal = (leader_[node + 1] - leader_[node]) / interval_ + gain_ * error;
+      const Vector3 error = leader[node] + followers[agent].place - path.positions[node];
+      const Vector3 nominal = (leader[node + 1] - leader[node]) / interval_ + gain_ * error;
       path.velocities.push_back(nominal.cwiseMax(-path.max_velocity).cwiseMin(path.max_velocity));
       path.positions.push_back(path.positions[node] + interval_ * path.velocities[node]);
     }
@@ -128,7 +123,7 @@ void Horizon::hold(int agents) {
   held_.resize(static_cast<std::size_t>(parameters_.nodes) * agents);
   for (int node = 0; node < parameters_.nodes; ++node) {
     Vector3* held = &held_[static_cast<std::size_t>(node) * agents];
-    held[team_.leader] = leader_[node + 1];
+    held[team_.leader] = leader_forecast_.positions()[node + 1];
     for (int column = 0; column < columns(); ++column) {
       held[team_.commanded[column]] =
           paths_[column].positions[node + 1] + displaced_.segment<3>(variable(node, column));
@@ -150,7 +145,7 @@ void Horizon::addLimits(int node) {
   for (int m = 0; m < features_.size(); ++m) {
     const bool known = team_.formulation.obstacle_velocity;
     const double approach = known ? features_.normal[m].dot(features_.obstacle_velocity[m]) : 0.0;
-    features_.distance[m] -= timeOf(node) * (approach + parameters_.leader_doubt * speed_);
+    features_.distance[m] -= timeOf(node) * (approach + leader_forecast_.doubt(node));
     features_.obstacle_velocity[m].setZero();
   }
   const Eigen::Index width = 3 * columns();
@@ -191,7 +186,7 @@ void Horizon::addVelocities() {
 
 //! The faster the leader, the more it counts that there is a way back.
 void Horizon::weigh() {
-  const double fast = std::min(1.0, speed_ / max_velocity_);
+  const double fast = std::min(1.0, leader_forecast_.fastest() / max_velocity_);
   const Vector3 weights = (1.0 - fast) * weights_at_rest_ + fast * parameters_.weights;
   filter_->setWeights(weights.replicate(parameters_.nodes * columns(), 1));
 }

@@ -59,6 +59,7 @@ std::string ObservationReader::read(const py::handle& observation, int agents) {
   view_ = {};
   try {
     readState(observation, agents);
+    readIntent(observation.attr("intent"));
     readDistances(observation.attr("distances"));
   } catch (const Unusable& unusable) {
     return unusable.fault;
@@ -92,6 +93,17 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }
+}
+
+void ObservationReader::readIntent(const py::handle& intent) {
+  if (intent.is_none()) {
+    return;
+  }
+  const py::array times = arrayOf(intent, "times", "intent.times", "fiu");
+  const py::ssize_t count = times.size();
+  view_.announcement.count = static_cast<int>(count);
+  view_.announcement.times = numbers(intent, "times", "intent.times", {count});
+  view_.announcement.positions = numbers(intent, "positions", "intent.positions", {count, 3});
 }
 
 void ObservationReader::readDistances(const py::handle& distances) {

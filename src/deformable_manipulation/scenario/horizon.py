@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.parameter import Live, parameter
-from deformable_manipulation.reading.readers import Integer, Number, Section, vector
+from deformable_manipulation.reading.readers import Choice, Integer, Number, Section, vector
+
+FADING, ANNOUNCED, KNOWN = "fading", "announced", "known"
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,15 @@ class HorizonSpec:
         "Number of times within `length` at which the object, its distances and the limits are "
         "predicted. Eight shapes of a rod cost as much as one.",
         default=8,
+        native=True,
+    )
+    leader: str = parameter(
+        Choice(FADING, ANNOUNCED, KNOWN),
+        "What the leader is expected to do. `fading`: go on with a velocity that fades. "
+        "`announced`: what it announces on `<leader>/intent`, as far as that has been true lately; "
+        "scripted leaders announce their path. `known`: what it announces, whatever has become of "
+        "that before; for scripted leaders.",
+        default=FADING,
         native=True,
     )
     leader_fade: float = parameter(
@@ -55,6 +66,11 @@ class HorizonSpec:
         live=Live(("horizon_weight_x", "horizon_weight_y", "horizon_weight_z"), 0.01, 100.0),
         native=True,
     )
+
+    @property
+    def announced(self) -> bool:
+        """Whether the controllers want to know where the leader will be."""
+        return self.length > 0.0 and self.leader != FADING
 
 
 # The length depends on the object where it is left out: controller.for_object() fills it in.

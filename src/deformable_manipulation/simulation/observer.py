@@ -1,6 +1,9 @@
 """Observations of a simulated object."""
 
+from typing import Optional
+
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.scenario.spec import Scenario
 
@@ -21,8 +24,11 @@ class Observer:
         self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
 
-    def observe(self) -> Observation:
-        """The present state; its points are valid until the next call."""
+    def observe(self, intent: Optional[Intent] = None) -> Observation:
+        """The present state, with what the leader has announced.
+
+        Its points are valid until the next call.
+        """
         simulation = self._simulation
         points = simulation.points(out=self._points)
         return Observation(
@@ -35,6 +41,7 @@ class Observer:
             ready=simulation.ready(),
             distances=self.distances_of(points),
             sensitivities=self._sensitivities(),
+            intent=intent,
         )
 
     def distances_of(self, points):
