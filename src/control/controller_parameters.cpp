@@ -59,6 +59,7 @@ ControllerParameters ControllerParameters::read(const ParameterSection& controll
   p.exact_gradients = controller.choice<bool>("jacobian", {{"equilibrium", true}, {"perturbed_copies", false}});
   p.horizon = HorizonParameters::read(controller.section("horizon"));
   p.team = readTeam(controller, team);
+  p.own = team.integers("own");
   p.barriers = team.texts("barriers");
   p.priority = readPriority(controller, p.barriers);
   p.values = controller.value();

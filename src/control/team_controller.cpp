@@ -1,9 +1,9 @@
 #include "deformable_manipulation/control/team_controller.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -12,8 +12,19 @@ namespace control {
 
 namespace {
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+// Part of the largest velocity by which another assistant's command may differ from what was expected of it. A state
+// that it did not get changes its command by less.
+constexpr double AGREEMENT = 0.1;
+
+constexpr double NEVER = -std::numeric_limits<double>::infinity();
+
+Team commanding(Team team, const std::vector<int>& members) {
+  const std::vector<int> all = std::move(team.commanded);
+  team.commanded.clear();
+  for (const int member : members) {
+    team.commanded.push_back(all[member]);
+  }
+  return team;
 }
 
 //! The filter's status, as far as it concerns one assistant.
@@ -29,22 +40,33 @@ Status statusOf(const Filtered& result, const Decision& decision) {
 
 TeamController::TeamController(const ControllerParameters& p)
     : parameters_(p),
-      barriers_(makeBarriers(p.barriers, p.values, p.team)),
       velocities_(1e-4, p.timeout),
       differences_(p.team.agents, p.team.leader),
       disturbances_(p.disturbance_filter),
-      filter_(p.weights.replicate(p.team.commanded.size(), 1), p.priority, p.team.formulation.relaxation) {
+      together_(p, p.team) {
   present_.positions.resize(p.team.agents);
-  for (const int agent : p.team.commanded) {
-    members_.push_back(
-        {agent, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), true});
+  members_.resize(p.team.commanded.size());
+  for (int i = 0; i < size(); ++i) {
+    members_[i].agent = p.team.commanded[i];
+  }
+  all_.resize(members_.size());
+  std::iota(all_.begin(), all_.end(), 0);
+  for (const int member : p.own) {
+    members_.at(member).own = true;
+  }
+  if (p.own.size() < members_.size()) {
+    alone_ = std::make_unique<TeamProgram>(p, commanding(p.team, p.own));
   }
   setSmoothing();
   decisions_.resize(members_.size());
-  for (Eigen::VectorXd* vector : {&nominal_, &lower_, &upper_}) {
-    vector->setZero(3 * size());
-  }
   reset();
+}
+
+void TeamController::setSolver(const QpSolver& solver) {
+  together_.setSolver(solver);
+  if (alone_ != nullptr) {
+    alone_->setSolver(solver);
+  }
 }
 
 void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
@@ -54,21 +76,27 @@ void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
 
 void TeamController::setSmoothing() {
   kept_ = parameters_.smoothing > 0.0 ? std::exp(-parameters_.cycle_time / parameters_.smoothing) : 0.0;
-  filter_.setAnticipation((1.0 - kept_) * ANTICIPATION_WEIGHT);
+  const double anticipation = (1.0 - kept_) * ANTICIPATION_WEIGHT;
+  together_.setAnticipation(anticipation);
+  if (alone_ != nullptr) {
+    alone_->setAnticipation(anticipation);
+  }
 }
 
 void TeamController::setParameters(const ControllerParameters& given) {
   const Team& team = parameters_.team;
   if (given.team.agents != team.agents || given.team.leader != team.leader || given.team.commanded != team.commanded ||
-      given.team.assistants != team.assistants || given.barriers != parameters_.barriers) {
+      given.team.assistants != team.assistants || given.own != parameters_.own ||
+      given.barriers != parameters_.barriers) {
     throw std::invalid_argument("the parameters belong to other agents or barriers");
   }
   ControllerParameters p = given;
   p.team.formulation = team.formulation;
-  std::vector<std::unique_ptr<Barrier>> barriers = makeBarriers(p.barriers, p.values, p.team);
-  filter_.setWeights(p.weights.replicate(p.team.commanded.size(), 1));
+  together_.setParameters(p, p.team);
+  if (alone_ != nullptr) {
+    alone_->setParameters(p, commanding(p.team, p.own));
+  }
   parameters_ = std::move(p);
-  barriers_ = std::move(barriers);
   if (horizon_ != nullptr) {
     horizon_->setParameters(parameters_);
   }
@@ -78,7 +106,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
 
 std::vector<double> TeamController::margins(int member, const PresentState& state) const {
   std::vector<double> values;
-  for (const auto& barrier : barriers_) {
+  for (const auto& barrier : together_.barriers()) {
     values.push_back(barrier->value(state, members_[member].agent));
   }
   return values;
@@ -103,7 +131,64 @@ void TeamController::forget() {
     horizon_->reset();
   }
   stop();
+  for (Member& member : members_) {
+    member.heard = member.disagreed = NEVER;
+    member.told.reset();
+  }
   answered_ = false;
+}
+
+AssistantIntent TeamController::intent(int member) const {
+  const Member& m = members_[member];
+  return {time_, m.enabled && !waits_, hears_, together_now_, m.reference, m.command, m.acceleration, m.departure};
+}
+
+void TeamController::hear(int member, const AssistantIntent& intent) {
+  Member& other = members_[member];
+  if (!other.own && (!other.told || intent.time > other.told->time)) {
+    other.told = intent;
+  }
+}
+
+//! Goes by what the others have told about the states before a new one.
+void TeamController::listen(double time) {
+  hears_ = together_now_ = true;
+  for (Member& member : members_) {
+    if (member.own) {
+      continue;
+    }
+    if (!answered_) {
+      member.heard = time;  // the others begin, too
+      member.hears = true;
+    }
+    if (member.told && member.told->time < time) {
+      learn(*member.told, time, member);
+      member.told.reset();
+    }
+    const double patience = trusting_ ? std::numeric_limits<double>::infinity() : parameters_.timeout;
+    hears_ = hears_ && time - member.heard <= patience && time - member.disagreed > parameters_.timeout;
+    together_now_ = together_now_ && hears_ && member.hears;
+  }
+}
+
+//! Continues from where another assistant says it is. What is late tells only what lasts.
+void TeamController::learn(const AssistantIntent& told, double time, Member& member) {
+  const bool current = !answered_ || told.time >= time_;
+  if (answered_ && told.time == time_ && told.coordinated && told.follows == member.enabled) {
+    const double difference = (told.command - member.command).cwiseAbs().maxCoeff();
+    if (difference > AGREEMENT * parameters_.max_velocity) {
+      member.disagreed = time;
+    }
+  }
+  if (current) {
+    member.command = told.command;
+    member.acceleration = told.acceleration;
+    member.departure = told.departure;
+  }
+  member.enabled = told.follows;
+  member.hears = told.hears;
+  member.reference = followers_[member.agent].place = told.reference;
+  member.heard = std::max(member.heard, told.time);
 }
 
 void TeamController::takeReference(int member, const ObservationView& observation) {
@@ -118,13 +203,14 @@ bool TeamController::isAnswered(double time) {
     forget();
   }
   bool same = answered_ && time <= time_;
-  for (int i = 0; i < size(); ++i) {
+  for (const int i : parameters_.own) {
     same = same && decisions_[i].enabled == members_[i].enabled;
   }
   return same;
 }
 
 const std::vector<Decision>& TeamController::wait() {
+  waits_ = true;
   clearDecisions();
   for (int i = 0; i < size(); ++i) {
     decisions_[i].command = slowed(members_[i]);
@@ -149,12 +235,15 @@ void TeamController::setCommand(const Vector3& command, Member& member) const {
 
 void TeamController::clearDecisions() {
   for (int i = 0; i < size(); ++i) {
-    decisions_[i].clear(static_cast<int>(barriers_.size()));
+    decisions_[i].clear(static_cast<int>(parameters_.barriers.size()));
     decisions_[i].enabled = members_[i].enabled;
+    decisions_[i].coordinated = together_now_ && members_.size() == parameters_.team.assistants.size();
   }
 }
 
 const std::vector<Decision>& TeamController::update(const ObservationView& observation) {
+  waits_ = false;
+  listen(observation.time);
   if (!answered_ || observation.time > time_) {
     time_ = observation.time;
     answered_ = true;
@@ -168,7 +257,7 @@ const std::vector<Decision>& TeamController::update(const ObservationView& obser
   for (std::size_t i = 0; i < members_.size(); ++i) {
     decisions_[i].command = slowed(members_[i]);  // unless something else is decided
   }
-  if (std::any_of(members_.begin(), members_.end(), [](const Member& member) { return member.enabled; })) {
+  if (std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.own && m.enabled; })) {
     decide(observation);
   }
   conclude();
@@ -200,7 +289,9 @@ void TeamController::predict(const ObservationView& observation) {
     predicted_.velocities[agent] = moved_[agent];
   }
   for (const Member& member : members_) {
-    predicted_.velocities[member.agent] = member.command;
+    if (member.own || together_now_) {
+      predicted_.velocities[member.agent] = member.command;
+    }
   }
   for (int agent = 0; agent < observation.agents; ++agent) {
     predicted_.positions[agent] = present_.positions[agent] + predicted_.delay * predicted_.velocities[agent];
@@ -223,8 +314,9 @@ void TeamController::describe(const ObservationView& observation) {
     decision.position = present_.positions[member.agent];
     decision.target = present_.positions[parameters_.team.leader] + member.reference;
     decision.distance = present_.distance;
-    for (std::size_t k = 0; k < barriers_.size(); ++k) {
-      decision.h[k] = barriers_[k]->value(present_, member.agent);
+    const auto& barriers = together_.barriers();
+    for (std::size_t k = 0; k < barriers.size(); ++k) {
+      decision.h[k] = barriers[k]->value(present_, member.agent);
     }
   }
 }
@@ -304,13 +396,13 @@ Vector3 TeamController::slowed(const Member& member) const {
 void TeamController::setBounds() {
   const MotionLimits limits = motionLimits();
   for (int i = 0; i < size(); ++i) {
-    const Member& member = members_[i];
+    Member& member = members_[i];
     const Vector3& slower = decisions_[i].command;  // so far
     for (int axis = 0; axis < 3; ++axis) {
       const VelocityRange range = member.enabled ? limits.next(member.command[axis], member.acceleration[axis])
                                                  : VelocityRange{slower[axis], slower[axis]};
-      lower_[3 * i + axis] = range.lower;
-      upper_[3 * i + axis] = range.upper;
+      member.lower[axis] = range.lower;
+      member.upper[axis] = range.upper;
     }
   }
 }
@@ -349,7 +441,7 @@ void TeamController::tellResponse(const ObservationView& observation) {
 
 void TeamController::passUnfiltered() {
   for (int i = 0; i < size(); ++i) {
-    const Vector3 command = decisions_[i].nominal.cwiseMax(lower_.segment<3>(3 * i)).cwiseMin(upper_.segment<3>(3 * i));
+    const Vector3 command = decisions_[i].nominal.cwiseMax(members_[i].lower).cwiseMin(members_[i].upper);
     if (command.allFinite()) {
       decisions_[i].status = Status::UNSAFE_FILTER_OFF;
       decisions_[i].command = command;
@@ -360,37 +452,43 @@ void TeamController::passUnfiltered() {
 }
 
 void TeamController::passFiltered() {
-  rows_.clear(3 * size());
-  const int limits = static_cast<int>(barriers_.size());
-  for (int k = 0; k < limits; ++k) {
-    BarrierRows rows(rows_, k, limits);
-    barriers_[k]->addRows(features_, predicted_, rows);
+  decideBy(together_, all_);
+  if (!together_now_) {
+    decideBy(*alone_, parameters_.own);
   }
   for (int i = 0; i < size(); ++i) {
-    const Vector3 nominal = members_[i].goal + kept_ * members_[i].departure;
-    nominal_.segment<3>(3 * i) = members_[i].enabled ? nominal : decisions_[i].command;
+    keepDeparture(decisions_[i], members_[i]);
   }
-  const auto start = std::chrono::steady_clock::now();
-  const Filtered& result = filter_.filter(nominal_, rows_, lower_, upper_);
-  const double solve_time = secondsSince(start);
-  for (int i = 0; i < size(); ++i) {
-    Decision& decision = decisions_[i];
-    decision.solve_time = solve_time;
+}
+
+//! Decides for some members by their program.
+void TeamController::decideBy(TeamProgram& program, const std::vector<int>& members) {
+  for (std::size_t column = 0; column < members.size(); ++column) {
+    const int i = members[column];
+    const Member& member = members_[i];
+    const Vector3 nominal = member.goal + kept_ * member.departure;
+    program.want(static_cast<int>(column), member.enabled ? nominal : decisions_[i].command, member.lower,
+                 member.upper);
+  }
+  const Filtered& result = program.solve(features_, predicted_);
+  for (std::size_t column = 0; column < members.size(); ++column) {
+    Decision& decision = decisions_[members[column]];
+    decision.solve_time += program.solveTime();
     if (result.status != Status::FAILED) {
-      decision.command = result.velocity.segment<3>(3 * i);
+      decision.command = result.velocity.segment<3>(3 * static_cast<Eigen::Index>(column));
     }
     decision.status = statusOf(result, decision);
-    keepDeparture(result.rows_act, decision, members_[i]);
     decision.rows = result.rows;
-    std::copy_n(result.slack.begin(), barriers_.size(), decision.slack.begin());
+    std::copy_n(result.slack.begin(), decision.slack.size(), decision.slack.begin());
+    members_[members[column]].rows_act = result.rows_act;
   }
 }
 
 //! What the rows make of the nominal velocity lasts, what the bounds alone make of it does not.
-void TeamController::keepDeparture(bool rows_act, const Decision& decision, Member& member) const {
+void TeamController::keepDeparture(const Decision& decision, Member& member) const {
   if (decision.status == Status::FAILED) {
     member.departure.setZero();
-  } else if (rows_act) {
+  } else if (member.rows_act) {
     member.departure = decision.command - member.goal;
   } else {
     member.departure *= kept_;

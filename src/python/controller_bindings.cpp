@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -56,6 +57,19 @@ std::unique_ptr<BoundController> makeController(const py::dict& controller, cons
   return bound;
 }
 
+AssistantIntent toIntent(double time, bool follows, bool hears, bool coordinated, const Vector3& reference,
+                         const Vector3& command, const Vector3& acceleration, const Vector3& departure) {
+  for (const Vector3* vector : {&reference, &command, &acceleration, &departure}) {
+    if (!vector->allFinite()) {
+      throw py::value_error("an intent has a number that is not finite");
+    }
+  }
+  if (!std::isfinite(time)) {
+    throw py::value_error("the time of an intent is not finite");
+  }
+  return {time, follows, hears, coordinated, reference, command, acceleration, departure};
+}
+
 int checked(const BoundController& bound, int member) {
   if (member < 0 || member >= bound.controller.size()) {
     throw py::index_error("no commanded assistant has the number " + std::to_string(member));
@@ -82,15 +96,38 @@ void takeReference(BoundController& bound, int member, const py::object& observa
   bound.controller.takeReference(checked(bound, member), bound.reader.view());
 }
 
-//! A vector of a decision as a new array.
-auto vector(Vector3 Decision::*member) {
-  return [member](const Decision& d) { return py::array_t<double>(3, (d.*member).data()); };
+//! A vector of a decision or an intent as a new array.
+template <typename Owner>
+auto vector(Vector3 Owner::*member) {
+  return [member](const Owner& owner) { return py::array_t<double>(3, (owner.*member).data()); };
+}
+
+void bindIntent(py::module_& module) {
+  py::class_<AssistantIntent>(
+      module, "AssistantIntent",
+      "How an assistant goes on from the state of a time [s]: whether it follows, whether it hears all others, "
+      "whether\n"
+      "the command was decided together, its place relative to the leader [m], its command [m/s], acceleration "
+      "[m/s^2]\n"
+      "and departure from its goal [m/s], each (3,). Raises ValueError for numbers that are not finite.")
+      .def(py::init(&toIntent), py::kw_only(), py::arg("time"), py::arg("follows"), py::arg("hears"),
+           py::arg("coordinated"), py::arg("reference"), py::arg("command"), py::arg("acceleration"),
+           py::arg("departure"))
+      .def_readonly("time", &AssistantIntent::time)
+      .def_readonly("follows", &AssistantIntent::follows)
+      .def_readonly("hears", &AssistantIntent::hears)
+      .def_readonly("coordinated", &AssistantIntent::coordinated)
+      .def_property_readonly("reference", vector(&AssistantIntent::reference))
+      .def_property_readonly("command", vector(&AssistantIntent::command))
+      .def_property_readonly("acceleration", vector(&AssistantIntent::acceleration))
+      .def_property_readonly("departure", vector(&AssistantIntent::departure));
 }
 
 void bindDecision(py::module_& module) {
   py::class_<Decision>(module, "Decision", "What control.decision.Decision is made of; h and slack by barrier.")
       .def_property_readonly("status", [](const Decision& d) { return static_cast<int>(d.status); })
       .def_readonly("enabled", &Decision::enabled)
+      .def_readonly("coordinated", &Decision::coordinated)
       .def_readonly("lacks_copies", &Decision::lacks_copies)
       .def_property_readonly("command", vector(&Decision::command))
       .def_property_readonly("nominal", vector(&Decision::nominal))
@@ -113,6 +150,7 @@ void bindDecision(py::module_& module) {
 
 void bindController(py::module_& module) {
   bindDecision(module);
+  bindIntent(module);
   py::class_<BoundController>(
       module, "TeamController",
       "The safe velocity controller of one or several assistants, which go by their numbers in the team. controller:\n"
@@ -155,6 +193,19 @@ void bindController(py::module_& module) {
           "Looks ahead with _pbd.RestShapes and a _distance.MinimumDistance of its own.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
+      .def(
+          "set_trusting", [](BoundController& bound, bool trusting) { bound.controller.setTrusting(trusting); },
+          py::arg("trusting"), "Whether the others are taken to go on as expected while nothing is heard of them.")
+      .def(
+          "intent",
+          [](const BoundController& bound, int member) { return bound.controller.intent(checked(bound, member)); },
+          py::arg("member"), "The AssistantIntent of an own assistant.")
+      .def(
+          "hear",
+          [](BoundController& bound, int member, const AssistantIntent& intent) {
+            bound.controller.hear(checked(bound, member), intent);
+          },
+          py::arg("member"), py::arg("intent"), "Takes in the AssistantIntent of another controller's assistant.")
       .def("update", &update, py::arg("observation"),
            "The Answer to an observation; None if the state is not newer than the last one.")
       .def(

@@ -172,6 +172,7 @@ Mapping team(int commanded) {
                {"leader", 0},
                {"assistants", List{1, 2}},
                {"commanded", List{1}},
+               {"own", List{0}},
                {"references", List{numbers({0.0, 0.75, 0.0})}},
                {"places", List{numbers({0.0, 0.0, 0.0}), numbers({0.0, 0.75, 0.0}), numbers({0.0, 1.5, 0.0})}},
                {"cycle_time", 0.01},
@@ -179,6 +180,7 @@ Mapping team(int commanded) {
                {"barriers", List{"collision", "overstretch", "proximity"}}};
   if (commanded == 2) {
     team["commanded"] = List{1, 2};
+    team["own"] = List{0, 1};
     team["references"] = List{numbers({0.0, 0.75, 0.0}), numbers({0.0, 1.5, 0.0})};
   }
   return team;

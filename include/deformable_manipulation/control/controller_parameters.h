@@ -49,7 +49,8 @@ struct ControllerParameters {
   double timeout;                   //!< [s] if a state is older than the last by more, time was set back
   bool exact_gradients;             //!< from the response, where it is known
   HorizonParameters horizon;
-  Team team;                          //!< who is commanded, and who else there is
+  Team team;                          //!< whose velocities are decided together, and who else there is
+  std::vector<int> own;               //!< numbers of those among them whom this controller commands
   std::vector<std::string> barriers;  //!< names of the barriers in use, in their order
   Priority priority;                  //!< of the barriers, by their numbers in that order
   ParameterValue values;              //!< the section `controller`, of which the barriers read theirs

@@ -19,6 +19,7 @@ constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 struct Decision {
   Status status = Status::WAITING;
   bool enabled = true;
+  bool coordinated = false;                       //!< all assistants were decided together; false: shares
   bool lacks_copies = false;                      //!< waits because its gradients are not known
   Vector3 command = Vector3::Zero();              //!< [m/s] of the own held point
   Vector3 nominal = Vector3::Constant(UNKNOWN);   //!< [m/s]

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "deformable_manipulation/control/barrier.h"
+#include "deformable_manipulation/control/assistant_intent.h"
 #include "deformable_manipulation/control/controller_parameters.h"
 #include "deformable_manipulation/control/decision.h"
 #include "deformable_manipulation/control/differences.h"
@@ -13,7 +14,7 @@
 #include "deformable_manipulation/control/motion_limits.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
-#include "deformable_manipulation/control/safety_filter.h"
+#include "deformable_manipulation/control/team_program.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
 namespace deformable_manipulation {
@@ -25,6 +26,11 @@ namespace control {
 //! its own observations only, control is decentralised: assistants share the constraints between them. If one program
 //! commands all assistants, control is centralised: each constraint is whole, and is met with the smallest deviation
 //! from the nominal velocities. The limits are a list of barriers.
+//!
+//! Coordinated control is decentralised, too: each controller solves the program of all assistants, and commands only
+//! its own ones. On the same states all controllers come to the same solution. They tell one another their intents,
+//! so that each knows who follows, and from where. While nothing is heard of another assistant, or it does something
+//! else than expected, the own ones take their share of each constraint and no more.
 //!
 //! The command computed from state k acts from state k + 1 to k + 2. So everything is predicted for state
 //! k + 1 to first order, or for a later state if the observation says that the answer is late: the commanded held
@@ -40,7 +46,11 @@ class TeamController {
   explicit TeamController(const ControllerParameters& parameters);
 
   //! Uses another solver for the safety filter's program.
-  void setSolver(QpSolver solver) { filter_.setSolver(std::move(solver)); }
+  void setSolver(const QpSolver& solver);
+
+  //! Takes it that the others go on as expected, however long nothing is heard of them: for lock-step, where every
+  //! controller answers every state.
+  void setTrusting(bool trusting) { trusting_ = trusting; }
 
   //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
   void setForecast(std::shared_ptr<ObjectForecast> forecast);
@@ -66,6 +76,14 @@ class TeamController {
   //! no fault.
   void takeReference(int member, const ObservationView& observation);
 
+  //! How an own assistant goes on from the state that was answered last, for the other controllers.
+  AssistantIntent intent(int member) const;
+
+  //! Takes in what another controller tells about one of its assistants, for the states after it. What is told about
+  //! own assistants, or is older than what was told before, is ignored.
+  //! @param intent finite
+  void hear(int member, const AssistantIntent& intent);
+
   //! Whether a state is not newer than the last one; it then gets the same answer again. If it is older by more than
   //! the timeout, time was set back: all states are forgotten.
   bool isAnswered(double time);
@@ -83,16 +101,26 @@ class TeamController {
   void setSmoothing();
 
   struct Member {
-    int agent;             // index
-    Vector3 reference;     // [m]
-    Vector3 command;       // [m/s] the last one, which acts until the next does
-    Vector3 acceleration;  // [m/s^2] from the command before to it
-    Vector3 departure;     // [m/s] of it from its goal, by the rows
-    Vector3 goal;          // [m/s] the velocity that the filter is to come near to
-    bool enabled;
+    int agent = -1;                            // index
+    bool own = false;                          // false: another controller commands it
+    Vector3 reference = Vector3::Zero();       // [m]
+    Vector3 command = Vector3::Zero();         // [m/s] the last one, which acts until the next does
+    Vector3 acceleration = Vector3::Zero();    // [m/s^2] from the command before to it
+    Vector3 departure = Vector3::Zero();       // [m/s] of it from its goal, by the rows
+    Vector3 goal = Vector3::Zero();            // [m/s] the velocity that the filter is to come near to
+    Vector3 lower = Vector3::Zero();           // [m/s] that the limits of velocity and acceleration allow
+    Vector3 upper = Vector3::Zero();           // [m/s]
+    bool rows_act = false;                     // the bounds alone would allow another velocity
+    bool enabled = true;                       // it follows the leader
+    std::optional<AssistantIntent> told = {};  // and not yet used
+    bool hears = true;                         // it hears all others
+    double heard = 0.0;                        // [s] time of the newest state that it told about
+    double disagreed = 0.0;                    // [s] when it last did something else than expected
   };
 
   void forget();
+  void listen(double time);
+  void learn(const AssistantIntent& told, double time, Member& member);
   void stop();
   void clearDecisions();
   void predict(const ObservationView& observation);
@@ -108,20 +136,26 @@ class TeamController {
   void tellResponse(const ObservationView& observation);
   void passUnfiltered();
   void passFiltered();
-  void keepDeparture(bool rows_act, const Decision& decision, Member& member) const;
+  void decideBy(TeamProgram& program, const std::vector<int>& members);
+  void keepDeparture(const Decision& decision, Member& member) const;
   void setCommand(const Vector3& command, Member& member) const;
   void conclude();
 
   ControllerParameters parameters_;
-  std::vector<std::unique_ptr<Barrier>> barriers_;
   VelocityEstimator velocities_;
   Differences differences_;
   DisturbanceObserver disturbances_;
-  SafetyFilter filter_;
+  TeamProgram together_;                // of all members
+  std::unique_ptr<TeamProgram> alone_;  // of the own ones; null: these are all
   std::shared_ptr<ObjectForecast> forecast_;
   std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
   std::vector<Member> members_;
+  std::vector<int> all_;             // their numbers
+  bool trusting_ = false;            // others are taken to go on as expected
+  bool hears_ = true;                // they go on as expected
+  bool together_now_ = true;         // and all hear one another
+  bool waits_ = false;               // for an input
   std::vector<Follower> followers_;  // [A]
   std::vector<double> response_;     // [A x P x 3 x 3]
   std::vector<Decision> decisions_;  // [M]
@@ -131,11 +165,7 @@ class TeamController {
   std::vector<Vector3> moved_;  // [A] m/s, measured velocities of the held points
   PredictedState predicted_;
   Features features_;
-  ConstraintRows rows_;
-  double kept_ = 0.0;        // part of a deviation that is kept for the next cycle
-  Eigen::VectorXd nominal_;  // [3 M] m/s, with that; zero for disabled assistants
-  Eigen::VectorXd lower_;    // [3 M] m/s, velocities that the limits of velocity and acceleration allow
-  Eigen::VectorXd upper_;
+  double kept_ = 0.0;  // part of a deviation that is kept for the next cycle
 };
 
 }  // namespace control

@@ -32,6 +32,7 @@ class Decision:
     h: Mapping[str, float] = field(default_factory=dict)  # the lowest of each barrier [m], by name
     jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
     exact_jacobian: bool = False  # from the equilibrium; False: from perturbed copies
+    coordinated: bool = False  # decided together with all assistants; False: by shares
     leader_drift: float = np.nan  # m/s, change of the distance by the leader's motion
     rows: int = 0  # of the barriers
     # m/s, how far the rows of each barrier are relaxed at most, by name

@@ -5,6 +5,7 @@ from typing import Any, Dict, NamedTuple, Sequence
 import numpy as np
 
 from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.controller import COORDINATED
 from deformable_manipulation.scenario.mapping import controller_to_mapping
 from deformable_manipulation.scenario.spec import Scenario
 
@@ -14,7 +15,7 @@ class NativeParameters(NamedTuple):
 
     Attributes:
         controller: the scenario's section, with what the barriers derive from the object.
-        team: all agents, and which of them are commanded.
+        team: all agents, whose velocities are decided together, and which of these it commands.
     """
 
     controller: Dict[str, Any]
@@ -32,13 +33,16 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
     Raises:
         ValueError: the scenario has no assistant of that name.
     """
-    commanded, leader = [_index_of(scenario, name) for name in names], scenario.leader_index
+    own, leader = [_index_of(scenario, name) for name in names], scenario.leader_index
+    coordinated = scenario.controller.cooperation == COORDINATED
+    commanded = list(scenario.assistants) if coordinated else own
     starts = np.array([each.start for each in scenario.agents], dtype=float)
     team = {
         "agents": len(scenario.agents),
         "leader": leader,
         "assistants": list(scenario.assistants),
         "commanded": commanded,
+        "own": [commanded.index(index) for index in own],
         "references": starts[commanded] - starts[leader],
         "places": starts - starts[leader],
         "cycle_time": scenario.cycle_time,

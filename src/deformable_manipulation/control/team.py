@@ -1,4 +1,4 @@
-"""The safe velocity controller of one or several assistants; centralised if it commands all."""
+"""The safe velocity controller of one or several assistants."""
 
 import time
 
@@ -9,50 +9,57 @@ from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.control.status import Status
-from deformable_manipulation.scenario.controller import CENTRALISED
+from deformable_manipulation.scenario.controller import DECENTRALISED
 
 _STATUSES = sorted(Status)
 
 
 def teams(scenario, names=None):
-    """Names of the assistants whose velocities are decided together, a tuple per controller.
+    """Names of the assistants that one controller commands, a tuple per controller.
 
-    ``controller.cooperation`` says which: each assistant alone, or all in one program.
+    ``controller.cooperation`` says which: each assistant by itself, or all of a process by one.
 
     Args:
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
-        names: of the assistants; default: all of the scenario.
+        names: of the process's assistants; default: all of the scenario.
     """
     if names is None:
         names = [scenario.agents[index].name for index in scenario.assistants]
-    if scenario.controller.cooperation == CENTRALISED:
-        return (tuple(names),)
-    return tuple((name,) for name in names)
+    if scenario.controller.cooperation == DECENTRALISED:
+        return tuple((name,) for name in names)
+    return (tuple(names),)
 
 
 class TeamController:
     """Lets assistants follow the leader at fixed relative positions, as far as the barriers allow.
 
-    One quadratic program over the velocities of all of them (docs/mathematics.md). The command
-    computed from state k acts from state k + 1 to k + 2, and everything is predicted for state
-    k + 1. The mathematics is in the C++ core, ``_control.TeamController``.
+    One quadratic program over the velocities of all of them (docs/mathematics.md). With
+    ``cooperation: coordinated`` it is over those of all assistants of the scenario, also of those
+    that other controllers command. The command computed from state k acts from state k + 1 to
+    k + 2, and everything is predicted for state k + 1. The mathematics is in the C++ core,
+    ``_control.TeamController``.
 
     Args:
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
-        names: of the assistants.
+        names: of the assistants that it commands.
         safety: False leaves the barriers out: the nominal velocities within their limits.
+        trusting: True takes it that others go on as expected, however long nothing is heard of
+            them: for lock-step, where every controller answers every state.
 
     Raises:
         ValueError: the scenario has no assistant of a name, or an unusable setting.
     """
 
-    def __init__(self, scenario, names, safety=True):
+    def __init__(self, scenario, names, safety=True, trusting=False):
         self._safety = safety
-        self._members = {name: number for number, name in enumerate(names)}
         self._barriers = scenario.controller.barriers
-        self._native = _control.TeamController(
-            *native_parameters(scenario, names, safety), find_solver(scenario.controller.solver)
-        )
+        parameters = native_parameters(scenario, names, safety)
+        agents = [scenario.agents[index].name for index in parameters.team["commanded"]]
+        numbers = {name: number for number, name in enumerate(agents)}
+        self._members = {name: numbers[name] for name in names}
+        self._others = {name: numbers[name] for name in agents if name not in self._members}
+        self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
+        self._native.set_trusting(trusting)
         self._last = None
         self._forecast = None
         if safety and scenario.controller.horizon.length > 0.0:
@@ -65,6 +72,28 @@ class TeamController:
     def names(self):
         """Of the assistants that it commands, in order."""
         return tuple(self._members)
+
+    @property
+    def others(self):
+        """Names of the assistants that it plans for, but which other controllers command."""
+        return tuple(self._others)
+
+    def intent(self, name):
+        """How an assistant goes on from the last state, for those in whose ``others`` it is.
+
+        Returns:
+            ``_control.AssistantIntent``.
+        """
+        return self._native.intent(self._members[name])
+
+    def hear(self, name, intent):
+        """Take in what another controller tells about one of the ``others``.
+
+        Args:
+            name: of the assistant.
+            intent: its ``_control.AssistantIntent``.
+        """
+        self._native.hear(self._others[name], intent)
 
     def is_enabled(self, name):
         """Whether an assistant follows; if not, it slows down to rest, and the others know."""
@@ -151,12 +180,13 @@ class TeamController:
         return self._by_barrier(self._native.margins(self._members[name], positions, distance))
 
     def _decisions(self, natives, fault="", computation_time=0.0):
-        lacking = [name for name, native in zip(self._members, natives) if native.lacks_copies]
+        everybody = {**self._members, **self._others}
+        lacking = [name for name, number in everybody.items() if natives[number].lacks_copies]
         if lacking:
             fault = f"the state has no ready perturbed copies of {', '.join(lacking)}"
         return {
-            name: self._decision(native, fault, computation_time)
-            for name, native in zip(self._members, natives)
+            name: self._decision(natives[number], fault, computation_time)
+            for name, number in self._members.items()
         }
 
     def _decision(self, native, fault, computation_time):
@@ -167,6 +197,7 @@ class TeamController:
             status=status,
             text=_sentence(status, fault, slack),
             enabled=native.enabled,
+            coordinated=native.coordinated,
             command=native.command,
             nominal=native.nominal,
             position=position,

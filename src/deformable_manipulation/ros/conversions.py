@@ -10,6 +10,7 @@ import genpy
 import numpy as np
 from geometry_msgs.msg import PoseStamped
 
+from deformable_manipulation import _control
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.motion.intent import Intent
@@ -185,6 +186,7 @@ def fill_controller_state(message, state, agent, decision):
     message.status = int(decision.status)
     message.status_text = decision.text
     message.exact_jacobian = decision.exact_jacobian
+    message.coordinated = decision.coordinated
     for name, vector in (
         ("position", decision.position),
         ("target", decision.target),
@@ -265,6 +267,50 @@ def to_twist(message, state, velocity):
     linear = message.twist.linear
     linear.x, linear.y, linear.z = (float(value) for value in velocity)
     return message
+
+
+def fill_intent(message, state, agent, intent):
+    """Write how an assistant goes on from a state into an ``AssistantIntent`` message."""
+    message.header = state.header
+    message.cycle = state.cycle
+    message.reset_count = state.reset_count
+    message.agent = agent
+    message.follows = intent.follows
+    message.hears = intent.hears
+    message.coordinated = intent.coordinated
+    for field, vector in (
+        (message.reference, intent.reference),
+        (message.velocity, intent.command),
+        (message.acceleration, intent.acceleration),
+        (message.departure, intent.departure),
+    ):
+        field.x, field.y, field.z = vector.tolist()
+    return message
+
+
+def to_intent(message, scenario):
+    """The core's ``_control.AssistantIntent`` from an ``AssistantIntent`` message.
+
+    Raises:
+        MessageError: a number is not finite.
+    """
+    try:
+        return _control.AssistantIntent(
+            time=message.cycle * scenario.cycle_time,
+            follows=message.follows,
+            hears=message.hears,
+            coordinated=message.coordinated,
+            reference=_vector(message.reference),
+            command=_vector(message.velocity),
+            acceleration=_vector(message.acceleration),
+            departure=_vector(message.departure),
+        )
+    except ValueError as error:
+        raise MessageError(str(error)) from None
+
+
+def _vector(message):
+    return message.x, message.y, message.z
 
 
 def _flags(values, name, count):

@@ -11,6 +11,7 @@ from deformable_manipulation.control.team import TeamController
 from deformable_manipulation.cycles.health import DecisionMonitor
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.assistant_link import AssistantLink
+from deformable_manipulation.ros.intent_exchange import IntentExchange
 from deformable_manipulation.ros.live_parameters import LiveParameters
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.target_markers import target_markers
@@ -34,7 +35,13 @@ class Team:
     def __init__(self, scenario, names, counter):
         self._scenario = scenario
         self._lock = threading.RLock()  # services and messages come in different threads
-        self._controller = TeamController(scenario, names, rospy.get_param("~safety", True))
+        self._controller = TeamController(
+            scenario,
+            names,
+            safety=rospy.get_param("~safety", True),
+            trusting=rospy.get_param("~lockstep", False),
+        )
+        self._intents = IntentExchange(scenario, self._controller, self._lock)
         for name in names:
             self._controller.set_enabled(name, rospy.get_param("~enabled", True))
         self._warnings = node.Warnings()
@@ -75,6 +82,7 @@ class Team:
                 self._controller.reset()
             self._answered = state
             self._observation = observation
+            self._intents.answers(state)
             if observation is None:
                 return self._controller.wait(fault)
             return self._controller.update(observation)
@@ -88,6 +96,7 @@ class Team:
 
     def report(self, state, observation, decisions):
         """Tell everybody else, who is in no hurry."""
+        self._intents.tell(state)
         for link in self._links:
             decision = decisions[link.name]
             self._monitors[link.name].decided(decision)

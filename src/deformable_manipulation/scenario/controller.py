@@ -24,6 +24,7 @@ from deformable_manipulation.reading.readers import (
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.horizon import HORIZON, HorizonSpec
 
+COORDINATED = "coordinated"
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
 FULL, PAPER = "full", "paper"
@@ -81,12 +82,14 @@ class _ControllerKeys:
         native=True,
     )
     cooperation: str = parameter(
-        Choice(DECENTRALISED, CENTRALISED),
-        "`decentralised`: each assistant decides from its own observations, and assistants share "
-        "the limits that several of them can act on. `centralised`: one quadratic program for all "
-        "assistants, in one process. See "
-        "[safety.md](safety.md#decentralised-or-centralised).",
-        default=DECENTRALISED,
+        Choice(COORDINATED, DECENTRALISED, CENTRALISED),
+        "`coordinated`: each assistant solves one quadratic program for all and follows its own "
+        "part. Assistants tell one another their intents; while one is not heard, the others take "
+        "their shares only. `decentralised`: each assistant decides for itself, and assistants "
+        "share the limits that several of them can act on. `centralised`: one quadratic program "
+        "for all assistants, in one process. See "
+        "[safety.md](safety.md#coordinated-decentralised-or-centralised).",
+        default=COORDINATED,
         paper=DECENTRALISED,
     )
     priority: Optional[Tuple[str, ...]] = parameter(

@@ -24,6 +24,7 @@ from deformable_manipulation.scenario.barriers.overstretch import OverstretchSpe
 from deformable_manipulation.scenario.barriers.proximity import ProximitySpec
 from deformable_manipulation.scenario.controller import (
     CENTRALISED,
+    COORDINATED,
     DECENTRALISED,
     ControllerSpec,
 )
@@ -54,6 +55,7 @@ from deformable_manipulation.scenario.waypoints import (
 __all__ = [
     "ASSISTANT",
     "CENTRALISED",
+    "COORDINATED",
     "DECENTRALISED",
     "LEADER",
     "AgentSpec",

@@ -17,7 +17,8 @@ class Run:
 
     ``body``: a :class:`~control_builders.LinearObject`; default: a chain that hangs through by
     ``sag`` [m]. The assistants' answers come ``late`` by so many cycles; they are ``told`` so, or
-    not.
+    not. With ``heard``, each assistant has a controller of its own, and another one's intent about
+    cycle k arrives if ``heard(name, k)``.
     """
 
     def __init__(
@@ -29,9 +30,13 @@ class Run:
         body=None,
         late=0,
         told=True,
+        heard=None,
         **settings,
     ):
-        controllers = [TeamController(scenario, names, **settings) for names in teams(scenario)]
+        parts = teams(scenario)
+        if heard is not None:
+            parts = [(scenario.agents[index].name,) for index in scenario.assistants]
+        controllers = [TeamController(scenario, names, **settings) for names in parts]
         leader = LeaderController(scenario)
         body = body or build.hanging_chain(len(scenario.agents), sag)
         positions = np.array([agent.start for agent in scenario.agents])
@@ -44,6 +49,8 @@ class Run:
                 lateness=late * scenario.cycle_time if told else 0.0,
             )
             decided = [each for team in controllers for each in team.update(observation).values()]
+            if heard is not None:
+                _exchange(controllers, lambda name, k=k: heard(name, k))
             states.append(positions)
             decisions.append(decided)
             following.append(np.array([each.command for each in decided]))
@@ -57,3 +64,12 @@ class Run:
 
     def h(self, barrier):
         return np.array([[each.h[barrier] for each in row] for row in self.decisions])
+
+
+def _exchange(controllers, heard):
+    """Each hears the intents of the others' assistants that arrive."""
+    for teller in controllers:
+        for name in filter(heard, teller.names):
+            for other in controllers:
+                if name in other.others:
+                    other.hear(name, teller.intent(name))

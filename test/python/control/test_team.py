@@ -6,7 +6,7 @@ import pytest
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.scenario.spec import CENTRALISED
+from deformable_manipulation.scenario.spec import CENTRALISED, DECENTRALISED
 
 DT = 0.01
 NAMES = ("assistant_1", "assistant_2")
@@ -27,7 +27,9 @@ def observed(scenario, time=0.0, shift=0.0, obstacle=FAR, sag=0.3, **settings):
 
 def test_the_scenario_says_who_is_commanded_together(scenario):
     assert teams(scenario) == (NAMES,)
-    assert teams(build.scenario(assistants=2)) == (("assistant_1",), ("assistant_2",))
+    assert teams(build.scenario(assistants=2)) == (NAMES,)
+    apart = build.scenario(assistants=2, cooperation=DECENTRALISED)
+    assert teams(apart) == (("assistant_1",), ("assistant_2",))
 
 
 def test_each_has_a_decision_of_its_own(scenario):

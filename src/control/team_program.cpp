@@ -1,0 +1,54 @@
+#include "deformable_manipulation/control/team_program.h"
+
+#include <chrono>
+#include <utility>
+
+namespace deformable_manipulation {
+namespace control {
+namespace {
+
+Eigen::VectorXd weightsOf(const ControllerParameters& parameters, const Team& team) {
+  return parameters.weights.replicate(static_cast<Eigen::Index>(team.commanded.size()), 1);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TeamProgram::TeamProgram(const ControllerParameters& parameters, const Team& team)
+    : barriers_(makeBarriers(parameters.barriers, parameters.values, team)),
+      filter_(weightsOf(parameters, team), parameters.priority, team.formulation.relaxation) {
+  for (Eigen::VectorXd* vector : {&nominal_, &lower_, &upper_}) {
+    vector->setZero(3 * static_cast<Eigen::Index>(team.commanded.size()));
+  }
+}
+
+void TeamProgram::setParameters(const ControllerParameters& parameters, const Team& team) {
+  std::vector<std::unique_ptr<Barrier>> barriers = makeBarriers(parameters.barriers, parameters.values, team);
+  filter_.setWeights(weightsOf(parameters, team));
+  barriers_ = std::move(barriers);
+}
+
+void TeamProgram::want(int column, const Vector3& nominal, const Vector3& lower, const Vector3& upper) {
+  nominal_.segment<3>(3 * column) = nominal;
+  lower_.segment<3>(3 * column) = lower;
+  upper_.segment<3>(3 * column) = upper;
+}
+
+const Filtered& TeamProgram::solve(const Features& features, const PredictedState& predicted) {
+  rows_.clear(static_cast<int>(nominal_.size()));
+  const int limits = static_cast<int>(barriers_.size());
+  for (int k = 0; k < limits; ++k) {
+    BarrierRows rows(rows_, k, limits);
+    barriers_[k]->addRows(features, predicted, rows);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Filtered& result = filter_.filter(nominal_, rows_, lower_, upper_);
+  solve_time_ = secondsSince(start);
+  return result;
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation
