@@ -54,6 +54,7 @@ void Horizon::setParameters(const ControllerParameters& p) {
   change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
   weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
+  times_.resize(p.horizon.nodes);
   decay_ = std::exp(-p.gain * interval_);
   gain_ = (1.0 - decay_) / interval_;
   barriers_ = makeBarriers(p.barriers, demandingPositions(p), team_);
@@ -77,7 +78,11 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   follow(predicted, followers);
   displace();
   hold(observation.agents);
-  forecast_->look(observation, held_);
+  for (int node = 0; node < parameters_.nodes; ++node) {
+    const bool known = team_.formulation.obstacle_velocity;
+    times_[node] = observation.time + (known ? predicted.delay + timeOf(node) : 0.0);
+  }
+  forecast_->look(observation, held_, times_);
   rows_.clear(static_cast<int>(departures_.size()));
   for (int node = 0; node < parameters_.nodes; ++node) {
     addLimits(node);
@@ -143,10 +148,7 @@ void Horizon::addLimits(int node) {
   there.velocities.assign(there.positions.size(), Vector3::Zero());
   forecast_->takeFeatures(node, team_.leader, features_);
   for (int m = 0; m < features_.size(); ++m) {
-    const bool known = team_.formulation.obstacle_velocity;
-    const double approach = known ? features_.normal[m].dot(features_.obstacle_velocity[m]) : 0.0;
-    features_.distance[m] -= timeOf(node) * (approach + leader_forecast_.doubt(node));
-    features_.obstacle_velocity[m].setZero();
+    features_.distance[m] -= timeOf(node) * leader_forecast_.doubt(node);
   }
   const Eigen::Index width = 3 * columns();
   node_rows_.clear(static_cast<int>(width));

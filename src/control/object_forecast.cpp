@@ -6,22 +6,16 @@
 
 namespace deformable_manipulation {
 namespace control {
-namespace {
-
-// What is farther away at a node is nearest at another one, or does not act.
-constexpr int kFeatures = 1;
-
-}  // namespace
-
 ObjectForecast::ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes,
-                               std::shared_ptr<distance::MinimumDistance> distance,
-                               std::vector<std::array<int, 3>> triangles)
+                               std::shared_ptr<distance::MinimumDistance> standing,
+                               std::vector<ObstacleForecast> moving, std::vector<std::array<int, 3>> triangles)
     : shapes_(std::move(shapes)),
-      distance_(std::move(distance)),
-      triangles_(std::move(triangles)),
-      distances_(nullptr) {}
+      standing_(std::move(standing)),
+      moving_(std::move(moving)),
+      triangles_(std::move(triangles)) {}
 
-void ObjectForecast::look(const ObservationView& observation, const std::vector<Vector3>& held) {
+void ObjectForecast::look(const ObservationView& observation, const std::vector<Vector3>& held,
+                          const std::vector<double>& times) {
   pbd::RestShapes& shapes = shapes_ != nullptr ? *shapes_ : linear_;
   agents_ = observation.agents;
   const int nodes = static_cast<int>(held.size()) / agents_;
@@ -35,22 +29,47 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   shapes.find(held);
   points_.resize(numbers * nodes);
   responses_.resize(3 * numbers * agents_ * nodes);
+  times_.resize(times.size());
   int known = 0;
   for (int node = 0; node < nodes; ++node) {
     if (shapes.known(node)) {
       shapes.points(node, &points_[numbers * known]);
       shapes.response(node, &responses_[3 * numbers * agents_ * known]);
+      times_[known] = times[node];
       place_[node] = known++;
     }
   }
   if (known > 0) {
-    distance::ObjectView object;
-    object.points = points_.data();
-    object.copies = known;
-    object.point_count = points_of_shape_;
-    object.triangles = triangles_.empty() ? nullptr : triangles_.data();
-    object.triangle_count = static_cast<int>(triangles_.size());
-    distances_ = &distance_->compute(object);
+    findNearest(known);
+  }
+}
+
+//! One feature of each shape: what is farther away at a node is nearest at another one, or does not act.
+void ObjectForecast::findNearest(int known) {
+  distance::ObjectView object;
+  object.points = points_.data();
+  object.copies = known;
+  object.point_count = points_of_shape_;
+  object.triangles = triangles_.empty() ? nullptr : triangles_.data();
+  object.triangle_count = static_cast<int>(triangles_.size());
+  const distance::Distances& standing = standing_->compute(object);
+  const bool any = !standing.features.empty();
+  nearest_.features.resize(any || !moving_.empty() ? known : 0);
+  nearest_.offsets.assign(1, 0);
+  for (int shape = 0; shape < known; ++shape) {
+    if (any) {
+      nearest_.features[shape] = standing.features[standing.offsets[shape]];
+    }
+    nearest_.offsets.push_back(nearest_.features.empty() ? 0 : shape + 1);
+  }
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const std::vector<distance::Feature>& features = moving_[k].compute(object, times_);
+    for (int shape = 0; shape < known; ++shape) {
+      const bool first = !any && k == 0;
+      if (first || features[shape].distance < nearest_.features[shape].distance) {
+        nearest_.features[shape] = features[shape];
+      }
+    }
   }
 }
 
@@ -61,8 +80,7 @@ void ObjectForecast::takeFeatures(int node, int leader, Features& features) cons
     return;
   }
   const std::size_t numbers = 9 * static_cast<std::size_t>(points_of_shape_) * agents_;
-  takeResponseGradients({*distances_, place, kFeatures}, {&responses_[numbers * place], agents_, points_of_shape_},
-                        leader, features);
+  takeResponseGradients({nearest_, place}, {&responses_[numbers * place], agents_, points_of_shape_}, leader, features);
 }
 
 }  // namespace control

@@ -85,6 +85,7 @@ class Horizon {
   };
 
   std::vector<Path> paths_;     // [M]
+  std::vector<double> times_;   // [N] s, of the nodes
   std::vector<Vector3> held_;   // [N x A] m, by the last plan
   Eigen::VectorXd departures_;  // [N x M x 3] m/s
   Eigen::VectorXd displaced_;   // [N x M x 3] m, from the paths

@@ -61,11 +61,10 @@ class TeamController:
         self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
         self._native.set_trusting(trusting)
         self._last = None
-        self._forecast = None
         if safety and scenario.controller.horizon.length > 0.0:
-            self._forecast = Forecast(scenario)
+            forecast = Forecast(scenario)
             self._native.look_ahead(
-                self._forecast.shapes, self._forecast.distance, self._forecast.triangles
+                forecast.shapes, forecast.standing, forecast.moving, forecast.triangles
             )
 
     @property
@@ -146,8 +145,6 @@ class TeamController:
         if fault:
             self._last = self.wait(fault)
             return self._last
-        if self._forecast is not None:
-            self._forecast.move(observation.time)
         answer = self._native.update(observation)
         if answer is not None:
             computation_time = time.perf_counter() - started

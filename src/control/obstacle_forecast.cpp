@@ -1,0 +1,59 @@
+#include "deformable_manipulation/control/obstacle_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace deformable_manipulation {
+namespace control {
+
+Pose PosePath::at(double time) const {
+  const double last = static_cast<double>(poses.size() - 1);
+  const double place = std::clamp((time - begin) / step, 0.0, last);
+  const auto before = static_cast<std::size_t>(std::min(std::floor(place), std::max(0.0, last - 1.0)));
+  const Pose& from = poses[before];
+  const Pose& to = poses[std::min(before + 1, poses.size() - 1)];
+  const double share = place - static_cast<double>(before);
+  return {from.position + share * (to.position - from.position), from.orientation.slerp(share, to.orientation)};
+}
+
+ObstacleForecast::ObstacleForecast(std::shared_ptr<distance::MinimumDistance> distance, const Pose& place,
+                                   PosePath path)
+    : distance_(std::move(distance)), place_(place), path_(std::move(path)) {
+  if (path_.poses.empty() || !(path_.step > 0.0)) {
+    throw std::invalid_argument("the path of an obstacle needs a pose and a step of more than 0 s");
+  }
+}
+
+const std::vector<distance::Feature>& ObstacleForecast::compute(const distance::ObjectView& object,
+                                                                const std::vector<double>& times) {
+  const Eigen::Index count = object.point_count;
+  points_.resize(3 * static_cast<std::size_t>(count) * object.copies);
+  features_.resize(object.copies);
+  for (int copy = 0; copy < object.copies; ++copy) {
+    const Pose then = path_.at(times[copy]);
+    const Eigen::Matrix3d turn = (place_.orientation * then.orientation.conjugate()).toRotationMatrix();
+    const Vector3 shift = place_.position - turn * then.position;
+    const Eigen::Map<const Eigen::Matrix3Xd> from(object.points + 3 * count * copy, 3, count);
+    Eigen::Map<Eigen::Matrix3Xd> to(points_.data() + 3 * count * copy, 3, count);
+    to = (turn * from).colwise() + shift;
+  }
+  distance::ObjectView seen = object;
+  seen.points = points_.data();
+  const distance::Distances& found = distance_->compute(seen);
+  for (int copy = 0; copy < object.copies; ++copy) {
+    const Pose then = path_.at(times[copy]);
+    const Eigen::Matrix3d back = (then.orientation * place_.orientation.conjugate()).toRotationMatrix();
+    distance::Feature& feature = features_[copy] = found.features[found.offsets[copy]];
+    for (Vector3* point : {&feature.object_point, &feature.obstacle_point}) {
+      *point = then.position + back * (*point - place_.position);
+    }
+    feature.normal = back * feature.normal;
+    feature.obstacle_velocity.setZero();
+  }
+  return features_;
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation
