@@ -220,7 +220,7 @@ def _fill_barriers(message, decision):
         setattr(message, f"slack_{name}", decision.slack.get(name, 0.0))
 
 
-def to_intent(message, state, scenario) -> Intent:
+def to_leader_intent(message, state, scenario) -> Intent:
     """The leader's Intent from a ``nav_msgs/Path``, in the time of a state's run.
 
     The stamps of the poses say when the leader will be there, by the clock of the state's stamp.

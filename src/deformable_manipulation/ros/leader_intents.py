@@ -8,7 +8,7 @@ from nav_msgs.msg import Path
 from deformable_manipulation.cycles.input_watch import find_age_fault
 from deformable_manipulation.motion.intent import leader_announces
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.conversions import MessageError, fill_path, to_intent
+from deformable_manipulation.ros.conversions import MessageError, fill_path, to_leader_intent
 from deformable_manipulation.ros.direct_publisher import DirectPublisher
 
 _PERIOD = 0.05  # s, between announcements in real time: a path costs more than a command
@@ -122,7 +122,7 @@ class LeaderIntents:
             fault = find_age_fault(age, self._scenario.controller.timeout)
             if fault:
                 raise MessageError(fault)
-            return to_intent(message, state, self._scenario)
+            return to_leader_intent(message, state, self._scenario)
         except MessageError as error:
             self._warnings.warn(f"An announcement of the leader is ignored: {error}.")
             return None

@@ -280,7 +280,7 @@ def path_message(scenario, stamp=12.49):
 
 def test_an_announcement_keeps_its_times_and_places(scenario, state):
     message, sent = path_message(scenario)
-    got = conversions.to_intent(message, state, scenario)
+    got = conversions.to_leader_intent(message, state, scenario)
     assert message.header.stamp.to_sec() == pytest.approx(12.49)
     np.testing.assert_allclose(got.times, sent.times, atol=2e-9)
     np.testing.assert_array_equal(got.positions, sent.positions)
@@ -318,4 +318,4 @@ def test_announcements_that_cannot_be_used_say_why(scenario, state, spoil, reaso
     message, _ = path_message(scenario)
     spoil(message)
     with pytest.raises(MessageError, match=reason):
-        conversions.to_intent(message, state, scenario)
+        conversions.to_leader_intent(message, state, scenario)
