@@ -32,6 +32,13 @@ Team commandingAll(const ControllerParameters& p, double length) {
   return team;
 }
 
+//! The part of a displacement that the law pulls back, per axis: all of it within the velocity, nothing where it wants
+//! to be twice as fast as it can.
+Vector3 pullOf(const Vector3& nominal, double max_velocity) {
+  const auto excess = (nominal.cwiseAbs().array() - max_velocity) / std::max(max_velocity, 1e-9);
+  return (1.0 - excess).max(0.0).min(1.0);
+}
+
 //! The barriers' priorities after a first kind of rows, which is numbered after theirs.
 Priority afterFirst(const Priority& priority) {
   Priority result{static_cast<int>(priority.size())};
@@ -55,8 +62,7 @@ void Horizon::setParameters(const ControllerParameters& p) {
   weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
   times_.resize(p.horizon.nodes);
-  decay_ = std::exp(-p.gain * interval_);
-  gain_ = (1.0 - decay_) / interval_;
+  gain_ = (1.0 - std::exp(-p.gain * interval_)) / interval_;
   barriers_ = makeBarriers(p.barriers, demandingPositions(p), team_);
   const Eigen::VectorXd weights = p.horizon.weights.replicate(p.horizon.nodes * columns(), 1);
   filter_ = std::make_unique<SafetyFilter>(weights, afterFirst(p.priority), true);
@@ -92,7 +98,7 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   departures_ += change_ * (filter_->filter(zero_, rows_, -reach_, reach_).velocity - departures_);
 }
 
-//! What becomes of the assistants by the nominal law, within their velocity.
+//! What becomes of the assistants by the nominal law, within their velocity, and the last plan's departures from it.
 void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
   const std::vector<Vector3>& leader = leader_forecast_.positions();
   paths_.resize(columns());
@@ -102,23 +108,35 @@ void Horizon::follow(const PredictedState& predicted, const std::vector<Follower
     path.max_velocity = followers[agent].follows ? max_velocity_ : 0.0;
     path.positions.assign(1, predicted.positions[agent]);
     path.velocities.clear();
+    path.pulls.clear();
     for (int node = 0; node < parameters_.nodes; ++node) {
       const Vector3 error = leader[node] + followers[agent].place - path.positions[node];
       const Vector3 nominal = (leader[node + 1] - leader[node]) / interval_ + gain_ * error;
       path.velocities.push_back(nominal.cwiseMax(-path.max_velocity).cwiseMin(path.max_velocity));
-      path.positions.push_back(path.positions[node] + interval_ * path.velocities[node]);
+      path.pulls.push_back(gain_ * pullOf(nominal, path.max_velocity));
+      const Vector3 velocity = path.velocities[node] + departures_.segment<3>(variable(node, column));
+      path.positions.push_back(path.positions[node] + interval_ * velocity);
     }
   }
 }
 
-//! How far the last plan's departures lead away from the paths.
+//! What is left of each departure at each node, and what that makes for the last plan's ones.
 void Horizon::displace() {
   displaced_.setZero(departures_.size());
-  const Eigen::Index width = 3 * columns();
-  for (int node = 0; node < parameters_.nodes; ++node) {
-    displaced_.segment(node * width, width) = interval_ * departures_.segment(node * width, width);
-    if (node > 0) {
-      displaced_.segment(node * width, width) += decay_ * displaced_.segment((node - 1) * width, width);
+  const int nodes = parameters_.nodes;
+  for (int column = 0; column < columns(); ++column) {
+    Path& path = paths_[column];
+    path.kept.assign(static_cast<std::size_t>(nodes) * nodes, Vector3::Zero());
+    for (int node = 0; node < nodes; ++node) {
+      const Vector3 left = Vector3::Ones() - interval_ * path.pulls[node];
+      path.kept[node * nodes + node].setConstant(interval_);
+      for (int from = 0; from < node; ++from) {
+        path.kept[from * nodes + node] = left.cwiseProduct(path.kept[from * nodes + node - 1]);
+      }
+      for (int from = 0; from <= node; ++from) {
+        displaced_.segment<3>(variable(node, column)) +=
+            path.kept[from * nodes + node].cwiseProduct(departures_.segment<3>(variable(from, column)));
+      }
     }
   }
 }
@@ -130,14 +148,10 @@ void Horizon::hold(int agents) {
     Vector3* held = &held_[static_cast<std::size_t>(node) * agents];
     held[team_.leader] = leader_forecast_.positions()[node + 1];
     for (int column = 0; column < columns(); ++column) {
-      held[team_.commanded[column]] =
-          paths_[column].positions[node + 1] + displaced_.segment<3>(variable(node, column));
+      held[team_.commanded[column]] = paths_[column].positions[node + 1];
     }
   }
 }
-
-//! [s] What a departure in interval `from` has displaced at the end of interval `to`, over its velocity.
-double Horizon::kept(int from, int to) const { return interval_ * std::pow(decay_, to - from); }
 
 //! The barriers at a node, as rows on all departures before it.
 void Horizon::addLimits(int node) {
@@ -161,8 +175,11 @@ void Horizon::addLimits(int node) {
     const auto g = node_rows_.coefficients(r);
     const double bound = node_rows_.bound(r) + g.dot(displaced_.segment(node * width, width));
     auto row = rows_.add(node_rows_.kind(r), scale * bound);
-    for (int from = 0; from <= node; ++from) {
-      row.segment(from * width, width) = scale * kept(from, node) * g;
+    for (int column = 0; column < columns(); ++column) {
+      for (int from = 0; from <= node; ++from) {
+        row.segment<3>(variable(from, column)) =
+            scale * paths_[column].kept[from * parameters_.nodes + node].cwiseProduct(g.segment<3>(3 * column));
+      }
     }
   }
 }
@@ -176,10 +193,13 @@ void Horizon::addVelocities() {
       for (int k = 0; k < 6; ++k) {
         const int axis = k / 2;
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
-        auto row = rows_.add(kind, -path.max_velocity - sign * path.velocities[node][axis]);
+        const double pull = path.pulls[node][axis];
+        const double before = node > 0 ? displaced_[variable(node - 1, column) + axis] : 0.0;
+        auto row = rows_.add(kind, -path.max_velocity - sign * (path.velocities[node][axis] + pull * before));
         row[variable(node, column) + axis] = sign;
         for (int from = 0; from < node; ++from) {
-          row[variable(from, column) + axis] = -sign * gain_ * kept(from, node - 1);
+          const double kept = path.kept[from * parameters_.nodes + node - 1][axis];
+          row[variable(from, column) + axis] = -sign * pull * kept;
         }
       }
     }

@@ -74,6 +74,8 @@ void TeamController::setForecast(std::shared_ptr<ObjectForecast> forecast) {
   horizon_ = std::make_unique<Horizon>(parameters_, forecast_);
 }
 
+void TeamController::setDetour(int member, DetourSearch search) { members_[member].detour.emplace(std::move(search)); }
+
 void TeamController::setSmoothing() {
   kept_ = parameters_.smoothing > 0.0 ? std::exp(-parameters_.cycle_time / parameters_.smoothing) : 0.0;
   const double anticipation = (1.0 - kept_) * ANTICIPATION_WEIGHT;
@@ -134,13 +136,16 @@ void TeamController::forget() {
   for (Member& member : members_) {
     member.heard = member.disagreed = NEVER;
     member.told.reset();
+    if (member.detour) {
+      member.detour->reset();
+    }
   }
   answered_ = false;
 }
 
 AssistantIntent TeamController::intent(int member) const {
   const Member& m = members_[member];
-  return {time_, m.enabled && !waits_, hears_, together_now_, m.reference, m.command, m.acceleration, m.departure};
+  return {time_, m.enabled && !waits_, hears_, together_now_, m.aim, m.command, m.acceleration, m.departure};
 }
 
 void TeamController::hear(int member, const AssistantIntent& intent) {
@@ -187,15 +192,17 @@ void TeamController::learn(const AssistantIntent& told, double time, Member& mem
   }
   member.enabled = told.follows;
   member.hears = told.hears;
-  member.reference = followers_[member.agent].place = told.reference;
+  member.reference = told.reference;
   member.heard = std::max(member.heard, told.time);
 }
 
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
-  followers_[taking.agent].place = taking.reference;
   taking.departure.setZero();  // it was from another nominal velocity
+  if (taking.detour) {
+    taking.detour->reset();
+  }
 }
 
 bool TeamController::isAnswered(double time) {
@@ -252,6 +259,7 @@ const std::vector<Decision>& TeamController::update(const ObservationView& obser
   velocities_.update(observation.time, Eigen::Map<const Eigen::VectorXd>(observation.positions, size));
   differences_.update(observation);
   predict(observation);
+  findWays(observation);
   clearDecisions();
   describe(observation);
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -298,8 +306,36 @@ void TeamController::predict(const ObservationView& observation) {
   }
 }
 
+//! Where the members go: to their places, or on a way around what holds them off.
+void TeamController::findWays(const ObservationView& observation) {
+  const int leader = parameters_.team.leader;
+  for (Member& member : members_) {
+    member.aim = member.reference;
+    if (member.detour && parameters_.safety) {
+      const DetourSearch::Limits limits = [this, agent = member.agent](const PresentState& state) {
+        return lowestMargin(state, agent);
+      };
+      member.detour->update(observation,
+                            {member.agent, member.reference, member.command, member.enabled,
+                             observation.position(leader), predicted_.leaderVelocity()},
+                            limits);
+      member.aim = member.detour->aim();
+    }
+    followers_[member.agent].place = member.aim;
+  }
+}
+
+//! The lowest h [m] of all barriers of an agent.
+double TeamController::lowestMargin(const PresentState& state, int agent) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& barrier : together_.barriers()) {
+    lowest = std::min(lowest, barrier->value(state, agent));
+  }
+  return lowest;
+}
+
 Vector3 TeamController::nominal(const Member& member) const {
-  const Vector3 target = predicted_.positions[parameters_.team.leader] + member.reference;
+  const Vector3 target = predicted_.positions[parameters_.team.leader] + member.aim;
   const Vector3 back = parameters_.gain * (target - predicted_.positions[member.agent]);
   return parameters_.team.formulation.leader_velocity ? Vector3(back + predicted_.leaderVelocity()) : back;
 }
@@ -311,6 +347,7 @@ void TeamController::describe(const ObservationView& observation) {
     const Member& member = members_[i];
     Decision& decision = decisions_[i];
     decision.nominal = nominal(member);
+    decision.detour = member.detour ? member.detour->state() : DetourState::NONE;
     decision.position = present_.positions[member.agent];
     decision.target = present_.positions[parameters_.team.leader] + member.reference;
     decision.distance = present_.distance;

@@ -157,6 +157,7 @@ void bindDecision(py::module_& module) {
       .def_property_readonly("status", [](const Decision& d) { return static_cast<int>(d.status); })
       .def_readonly("enabled", &Decision::enabled)
       .def_readonly("coordinated", &Decision::coordinated)
+      .def_property_readonly("detour", [](const Decision& d) { return static_cast<int>(d.detour); })
       .def_readonly("lacks_copies", &Decision::lacks_copies)
       .def_property_readonly("command", vector(&Decision::command))
       .def_property_readonly("nominal", vector(&Decision::nominal))
@@ -220,6 +221,18 @@ void bindController(py::module_& module) {
           "Looks ahead with _pbd.RestShapes, a _distance.MinimumDistance of its own from the obstacles that stand, "
           "and\n"
           "ObstacleForecasts of the others.")
+      .def(
+          "find_detours",
+          [](BoundController& bound, int member, std::shared_ptr<RestShapes> shapes,
+             const std::shared_ptr<NamedMinimumDistance>& distance) {
+            if (shapes == nullptr) {
+              throw py::value_error("shapes must not be None");
+            }
+            bound.controller.setDetour(checked(bound, member), DetourSearch(std::move(shapes), nativeOf(distance)));
+          },
+          py::arg("member"), py::arg("shapes"), py::arg("distance"),
+          "Lets an own assistant look for ways around, with _pbd.RestShapes of its own and a "
+          "_distance.MinimumDistance.")
       .def("reset", [](BoundController& bound) { bound.controller.reset(); })
       .def("take_reference", &takeReference, py::arg("member"), py::arg("observation"), "Raises ValueError.")
       .def(

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "deformable_manipulation/control/detour.h"
 #include "deformable_manipulation/control/status.h"
 #include "deformable_manipulation/pbd/types.h"
 
@@ -20,6 +21,7 @@ struct Decision {
   Status status = Status::WAITING;
   bool enabled = true;
   bool coordinated = false;                       //!< all assistants were decided together; false: shares
+  DetourState detour = DetourState::NONE;         //!< whether it goes another way than straight to its place
   bool lacks_copies = false;                      //!< waits because its gradients are not known
   Vector3 command = Vector3::Zero();              //!< [m/s] of the own held point
   Vector3 nominal = Vector3::Constant(UNKNOWN);   //!< [m/s]

@@ -59,7 +59,6 @@ class Horizon {
   void weigh();
   void addLimits(int node);
   void addVelocities();
-  double kept(int from, int to) const;
   Eigen::Index variable(int node, int column) const { return 3 * (node * columns() + column); }
   int columns() const { return static_cast<int>(team_.commanded.size()); }
   double timeOf(int node) const { return (node + 1) * interval_; }
@@ -71,16 +70,17 @@ class Horizon {
   Vector3 weights_at_rest_;  // behind a leader at rest
   double interval_ = 0.0;    // [s]
   double gain_ = 0.0;        // [1/s] of the law with a constant velocity in each interval
-  double decay_ = 0.0;       // part of an error that is left after an interval
   std::vector<std::unique_ptr<Barrier>> barriers_;
   std::unique_ptr<SafetyFilter> filter_;
   LeaderForecast leader_forecast_;
   std::shared_ptr<ObjectForecast> forecast_;
 
-  //! What the nominal law makes of an assistant.
+  //! What the nominal law and the last plan's departures make of an assistant.
   struct Path {
     std::vector<Vector3> positions;   // [N + 1] m
-    std::vector<Vector3> velocities;  // [N] m/s
+    std::vector<Vector3> velocities;  // [N] m/s, of the law alone
+    std::vector<Vector3> pulls;       // [N] 1/s, of the law on a displacement in an interval
+    std::vector<Vector3> kept;        // [N x N] s, displacement at a node over the departure in an interval
     double max_velocity;              // [m/s]
   };
 
@@ -88,7 +88,7 @@ class Horizon {
   std::vector<double> times_;   // [N] s, of the nodes
   std::vector<Vector3> held_;   // [N x A] m, by the last plan
   Eigen::VectorXd departures_;  // [N x M x 3] m/s
-  Eigen::VectorXd displaced_;   // [N x M x 3] m, from the paths
+  Eigen::VectorXd displaced_;   // [N x M x 3] m, to first order, by the last plan's departures
   Eigen::VectorXd zero_;
   Eigen::VectorXd reach_;  // [m/s] of departures
   Features features_;

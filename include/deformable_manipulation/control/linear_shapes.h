@@ -19,6 +19,7 @@ class LinearShapes final : public pbd::RestShapes {
 
   int pointCount() const override { return points_; }
   void setPresent(const double* points) override { present_ = points; }
+  void forget() override {}
   void find(const std::vector<Vector3>& held) override { moved_ = held; }
   bool known(int /*shape*/) const override { return true; }
   void points(int shape, double* to) const override;

@@ -8,6 +8,7 @@
 #include "deformable_manipulation/control/assistant_intent.h"
 #include "deformable_manipulation/control/controller_parameters.h"
 #include "deformable_manipulation/control/decision.h"
+#include "deformable_manipulation/control/detour.h"
 #include "deformable_manipulation/control/differences.h"
 #include "deformable_manipulation/control/disturbance_observer.h"
 #include "deformable_manipulation/control/horizon.h"
@@ -54,6 +55,9 @@ class TeamController {
 
   //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
   void setForecast(std::shared_ptr<ObjectForecast> forecast);
+
+  //! Lets an own assistant that is held off its place take a way around that this search finds.
+  void setDetour(int member, DetourSearch search);
 
   //! Number M of assistants that it commands; they are numbered in the order of the parameters.
   int size() const { return static_cast<int>(members_.size()); }
@@ -110,6 +114,8 @@ class TeamController {
     Vector3 goal = Vector3::Zero();            // [m/s] the velocity that the filter is to come near to
     Vector3 lower = Vector3::Zero();           // [m/s] that the limits of velocity and acceleration allow
     Vector3 upper = Vector3::Zero();           // [m/s]
+    Vector3 aim = Vector3::Zero();             // [m] where it goes, relative to the leader: its reference or a detour
+    std::optional<Detour> detour = {};         // if it may take one
     bool rows_act = false;                     // the bounds alone would allow another velocity
     bool enabled = true;                       // it follows the leader
     std::optional<AssistantIntent> told = {};  // and not yet used
@@ -124,6 +130,8 @@ class TeamController {
   void stop();
   void clearDecisions();
   void predict(const ObservationView& observation);
+  void findWays(const ObservationView& observation);
+  double lowestMargin(const PresentState& state, int agent) const;
   Vector3 nominal(const Member& member) const;
   void describe(const ObservationView& observation);
   void decide(const ObservationView& observation);

@@ -19,6 +19,9 @@ class RestShapes {
   //! @param points [P x 3] m, of the object itself as it is now
   virtual void setPresent(const double* points) = 0;
 
+  //! Forgets the shapes found: the next searches start from the present shape.
+  virtual void forget() = 0;
+
   //! Looks for shapes; each search starts from the shape of the same number that was found last.
   //! @param held [shapes x agents] m, where the agents hold it
   virtual void find(const std::vector<Vector3>& held) = 0;

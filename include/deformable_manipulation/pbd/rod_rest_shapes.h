@@ -19,6 +19,7 @@ class RodRestShapes final : public RestShapes {
 
   int pointCount() const override { return rod_->pointCount(); }
   void setPresent(const double* points) override;
+  void forget() override { equilibrium_ = RodEquilibrium(); }
   void find(const std::vector<Vector3>& held) override;
   bool known(int shape) const override;
   void points(int shape, double* to) const override { equilibrium_.points(shape, to); }

@@ -5,7 +5,7 @@ from typing import Mapping
 
 import numpy as np
 
-from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.status import DetourState, Status
 
 
 def _unknown_vector():
@@ -33,6 +33,7 @@ class Decision:
     jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
     exact_jacobian: bool = False  # from the equilibrium; False: from perturbed copies
     coordinated: bool = False  # decided together with all assistants; False: by shares
+    detour: DetourState = DetourState.NONE
     leader_drift: float = np.nan  # m/s, change of the distance by the leader's motion
     rows: int = 0  # of the barriers
     # m/s, how far the rows of each barrier are relaxed at most, by name

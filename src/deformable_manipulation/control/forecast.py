@@ -1,10 +1,13 @@
 """What a controller that looks ahead needs of the scenario."""
 
+import dataclasses
+from typing import Optional
+
 import numpy as np
 
 from deformable_manipulation import _control
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-from deformable_manipulation.motion.obstacle_motion import ObstaclePath
+from deformable_manipulation.motion.obstacle_motion import MovingObstacles, ObstaclePath
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.scenario.spec import PathMotion, Scenario
 
@@ -15,41 +18,70 @@ _MOST_POSES = 20000  # of a path; a longer one is told less finely
 class Forecast:
     """The object as it rests when its agents have moved on, and the obstacles it may meet there.
 
-    Obstacles on a path are where it leads. Those whose poses are measured are left out: nobody
-    tells where they will be.
+    Obstacles whose poses are measured are left out: nobody tells where they will be.
 
     Args:
         scenario: the checked scenario.
+
+    Attributes:
+        triangles: of the object's points, or None: a polyline.
+        has_shapes: whether the object's shapes can be found; otherwise they are told to first
+            order.
+        knows_all: whether no obstacle is left out.
     """
 
     def __init__(self, scenario: Scenario):
-        body = make_body(scenario.object, scenario.simulation.gravity, scenario.simulation.solver)
-        #: ``_pbd.RestShapes``, or None where shapes are told to first order.
-        self.shapes = body.rest_shapes(
-            [
-                (agent.particle, agent.hold, agent.start, agent.orientation)
-                for agent in scenario.agents
-            ]
+        self._known = tuple(
+            obstacle
+            for obstacle in scenario.obstacles
+            if obstacle.motion is None or isinstance(obstacle.motion, PathMotion)
         )
+        self._body = make_body(
+            scenario.object, scenario.simulation.gravity, scenario.simulation.solver
+        )
+        self._holds = [
+            (agent.particle, agent.hold, agent.start, agent.orientation)
+            for agent in scenario.agents
+        ]
+        self.has_shapes = self.make_shapes() is not None
+        self.knows_all = len(self._known) == len(scenario.obstacles)
         self.triangles = scenario.object.faces()
         self._margin = scenario.object.margin
-        #: ``_distance.MinimumDistance`` from the obstacles that stand.
-        self.standing = self._distance_from(each for each in scenario.obstacles if not each.motion)
-        #: ``_control.ObstacleForecast`` of each obstacle on a path.
-        self.moving = [
-            self._on_path(each)
-            for each in scenario.obstacles
-            if isinstance(each.motion, PathMotion)
-        ]
+        self._present: Optional[MinimumDistance] = None  # until it is needed
+        self._obstacles = MovingObstacles(dataclasses.replace(scenario, obstacles=self._known))
+
+    def make_shapes(self):
+        """A new ``_pbd.RestShapes``, or None: such objects are predicted to first order."""
+        return self._body.rest_shapes(self._holds)
+
+    def standing(self):
+        """A new ``_distance.MinimumDistance`` from the obstacles that do not move."""
+        return self._distance_from([each for each in self._known if each.motion is None]).native
+
+    def moving(self):
+        """New ``_control.ObstacleForecast`` of the obstacles on paths."""
+        return [self._on_path(each) for each in self._known if each.motion is not None]
+
+    @property
+    def distance(self):
+        """The ``_distance.MinimumDistance`` from all these obstacles where they are at present."""
+        if self._present is None:
+            self._present = self._distance_from(self._known)
+        return self._present.native
+
+    def move(self, time: float) -> None:
+        """Put the obstacles where they are at a time [s], if anybody uses their distances."""
+        if self._present is not None:
+            self._obstacles.move(self._present, time)
 
     def _distance_from(self, obstacles):
-        obstacles = tuple(obstacles)
-        return MinimumDistance(obstacles, self._margin, 0.0, self.triangles).native
+        return MinimumDistance(obstacles, self._margin, 0.0, self.triangles)
 
     def _on_path(self, obstacle):
         begin, step, poses = sampled(obstacle)
         place = (*obstacle.translation, *obstacle.rotation)
-        return _control.ObstacleForecast(self._distance_from([obstacle]), place, begin, step, poses)
+        distance = self._distance_from([obstacle]).native
+        return _control.ObstacleForecast(distance, place, begin, step, poses)
 
 
 def sampled(obstacle):

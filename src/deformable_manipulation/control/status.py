@@ -25,6 +25,27 @@ class Status(IntEnum):
         return self not in (Status.FAILED, Status.WAITING, Status.DISABLED)
 
 
+class DetourState(IntEnum):
+    """Whether an assistant goes another way than straight to its place."""
+
+    NONE = 0
+    SEARCHING = 1
+    FOLLOWING = 2
+    NO_WAY = 3
+
+    @property
+    def sentence(self):
+        """The state in words; empty for NONE."""
+        return _DETOURS[self]
+
+
+_DETOURS = {
+    DetourState.NONE: "",
+    DetourState.SEARCHING: "It is held off its place and looks for a way around.",
+    DetourState.FOLLOWING: "It takes a way around to its place.",
+    DetourState.NO_WAY: "It is held off its place, and no way around within the limits was found.",
+}
+
 _SENTENCES = {
     Status.NOMINAL: "Follows the leader: no constraint changes the nominal velocity.",
     Status.CONSTRAINED: "Departs from the nominal velocity so that all constraints hold.",

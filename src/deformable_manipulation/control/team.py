@@ -8,10 +8,11 @@ from deformable_manipulation.control.forecast import Forecast
 from deformable_manipulation.control.observation import wrong_type
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.reference_solver import find_solver
-from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.status import DetourState, Status
 from deformable_manipulation.scenario.controller import DECENTRALISED
 
 _STATUSES = sorted(Status)
+_DETOURS = sorted(DetourState)
 
 
 def teams(scenario, names=None):
@@ -61,11 +62,19 @@ class TeamController:
         self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
         self._native.set_trusting(trusting)
         self._last = None
-        if safety and scenario.controller.horizon.length > 0.0:
-            forecast = Forecast(scenario)
+        self._forecast = None
+        if safety:
+            self._forecast = Forecast(scenario)
+            self._use(self._forecast, scenario.controller)
+
+    def _use(self, forecast, settings):
+        if settings.horizon.length > 0.0:
             self._native.look_ahead(
-                forecast.shapes, forecast.standing, forecast.moving, forecast.triangles
+                forecast.make_shapes(), forecast.standing(), forecast.moving(), forecast.triangles
             )
+        if settings.detours and forecast.has_shapes and forecast.knows_all:
+            for number in self._members.values():
+                self._native.find_detours(number, forecast.make_shapes(), forecast.distance)
 
     @property
     def names(self):
@@ -145,6 +154,8 @@ class TeamController:
         if fault:
             self._last = self.wait(fault)
             return self._last
+        if self._forecast is not None:
+            self._forecast.move(observation.time)
         answer = self._native.update(observation)
         if answer is not None:
             computation_time = time.perf_counter() - started
@@ -187,14 +198,15 @@ class TeamController:
         }
 
     def _decision(self, native, fault, computation_time):
-        status = _STATUSES[native.status]
+        status, detour = _STATUSES[native.status], _DETOURS[native.detour]
         slack = self._by_barrier(native.slack)
         position, target = native.position, native.target
         return Decision(
             status=status,
-            text=_sentence(status, fault, slack),
+            text=" ".join(filter(None, (_sentence(status, fault, slack), detour.sentence))),
             enabled=native.enabled,
             coordinated=native.coordinated,
+            detour=detour,
             command=native.command,
             nominal=native.nominal,
             position=position,

@@ -174,6 +174,14 @@ class _ControllerKeys:
         default_text="all defaults",
         native=True,
     )
+    detours: bool = parameter(
+        Flag(),
+        "Whether an assistant that is held off its place, behind a leader at rest, looks for a way "
+        "around and takes it. For rods, and obstacles whose poses are not measured. See "
+        "[safety.md](safety.md#detours).",
+        default=True,
+        paper=False,
+    )
     perturbation: Vector = parameter(
         vector("m", smallest_size=_SMALLEST_PERTURBATION),
         "Displacement of the held point in the copy of each axis. It may be negative. Smaller "

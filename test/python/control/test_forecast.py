@@ -36,12 +36,12 @@ def test_an_obstacle_with_one_waypoint_stands_there():
 
 @pytest.mark.parametrize("name, moving", [("rope_moving_obstacle", 1), ("rope_one_assistant", 0)])
 def test_obstacles_on_paths_are_told_apart(name, moving):
-    assert len(Forecast(load_scenario(name)).moving) == moving
+    assert len(Forecast(load_scenario(name)).moving()) == moving
 
 
 def test_what_is_measured_is_left_out():
     scenario = load_scenario("rope_moving_obstacle", [("obstacles.0.motion", "{topic: block}")])
-    assert not Forecast(scenario).moving
+    assert not Forecast(scenario).moving()
 
 
 def run(seconds, *overrides):
