@@ -56,6 +56,7 @@ Horizon::Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectF
 void Horizon::setParameters(const ControllerParameters& p) {
   parameters_ = p.horizon;
   leader_forecast_.setParameters(p.horizon);
+  forecast_->setObstacleDoubt(p.horizon.obstacle_doubt);
   team_ = commandingAll(p, p.horizon.length);
   max_velocity_ = p.max_velocity;
   change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
@@ -76,6 +77,7 @@ void Horizon::setParameters(const ControllerParameters& p) {
 void Horizon::reset() {
   departures_.setZero(3 * parameters_.nodes * columns());
   leader_forecast_.reset();
+  forecast_->reset();
 }
 
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,

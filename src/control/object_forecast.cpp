@@ -8,10 +8,12 @@ namespace deformable_manipulation {
 namespace control {
 ObjectForecast::ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes,
                                std::shared_ptr<distance::MinimumDistance> standing,
-                               std::vector<ObstacleForecast> moving, std::vector<std::array<int, 3>> triangles)
+                               std::vector<ObstacleForecast> moving, std::vector<MeasuredObstacle> measured,
+                               std::vector<std::array<int, 3>> triangles)
     : shapes_(std::move(shapes)),
       standing_(std::move(standing)),
       moving_(std::move(moving)),
+      measured_(std::move(measured)),
       triangles_(std::move(triangles)) {}
 
 void ObjectForecast::look(const ObservationView& observation, const std::vector<Vector3>& held,
@@ -25,6 +27,7 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
     return;
   }
   const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
+  observe(observation);
   shapes.setPresent(observation.coordinates);
   shapes.find(held);
   points_.resize(numbers * nodes);
@@ -44,6 +47,24 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   }
 }
 
+void ObjectForecast::reset() {
+  for (MeasuredObstacle& obstacle : measured_) {
+    obstacle.reset();
+  }
+}
+
+void ObjectForecast::observe(const ObservationView& observation) {
+  told_ = observation.obstacle_poses != nullptr;
+  for (MeasuredObstacle& obstacle : measured_) {
+    told_ = told_ && obstacle.index() < observation.obstacles;
+    if (told_) {
+      const double* numbers = observation.obstacle_poses + 7 * obstacle.index();
+      const Eigen::Map<const pbd::Quaternion> orientation(numbers + 3);
+      obstacle.observe(observation.time, {Eigen::Map<const Vector3>(numbers), orientation.normalized()});
+    }
+  }
+}
+
 //! One feature of each shape: what is farther away at a node is nearest at another one, or does not act.
 void ObjectForecast::findNearest(int known) {
   distance::ObjectView object;
@@ -52,23 +73,35 @@ void ObjectForecast::findNearest(int known) {
   object.point_count = points_of_shape_;
   object.triangles = triangles_.empty() ? nullptr : triangles_.data();
   object.triangle_count = static_cast<int>(triangles_.size());
+  nearest_.features.clear();
   const distance::Distances& standing = standing_->compute(object);
-  const bool any = !standing.features.empty();
-  nearest_.features.resize(any || !moving_.empty() ? known : 0);
+  for (int shape = 0; shape < known && !standing.features.empty(); ++shape) {
+    nearest_.features.push_back(standing.features[standing.offsets[shape]]);
+  }
+  times_.resize(known);
+  for (ObstacleForecast& obstacle : moving_) {
+    take(obstacle.compute(object, times_));
+  }
+  for (MeasuredObstacle& obstacle : measured_) {
+    if (told_) {
+      take(obstacle.compute(object, times_, obstacle_doubt_));
+    }
+  }
   nearest_.offsets.assign(1, 0);
   for (int shape = 0; shape < known; ++shape) {
-    if (any) {
-      nearest_.features[shape] = standing.features[standing.offsets[shape]];
-    }
     nearest_.offsets.push_back(nearest_.features.empty() ? 0 : shape + 1);
   }
-  for (std::size_t k = 0; k < moving_.size(); ++k) {
-    const std::vector<distance::Feature>& features = moving_[k].compute(object, times_);
-    for (int shape = 0; shape < known; ++shape) {
-      const bool first = !any && k == 0;
-      if (first || features[shape].distance < nearest_.features[shape].distance) {
-        nearest_.features[shape] = features[shape];
-      }
+}
+
+//! Keeps the nearer feature of each shape.
+void ObjectForecast::take(const std::vector<distance::Feature>& features) {
+  if (nearest_.features.empty()) {
+    nearest_.features = features;
+    return;
+  }
+  for (std::size_t shape = 0; shape < nearest_.features.size(); ++shape) {
+    if (features[shape].distance < nearest_.features[shape].distance) {
+      nearest_.features[shape] = features[shape];
     }
   }
 }

@@ -20,7 +20,12 @@ Pose PosePath::at(double time) const {
 
 ObstacleForecast::ObstacleForecast(std::shared_ptr<distance::MinimumDistance> distance, const Pose& place,
                                    PosePath path)
-    : distance_(std::move(distance)), place_(place), path_(std::move(path)) {
+    : distance_(std::move(distance)), place_(place) {
+  setPath(std::move(path));
+}
+
+void ObstacleForecast::setPath(PosePath path) {
+  path_ = std::move(path);
   if (path_.poses.empty() || !(path_.step > 0.0)) {
     throw std::invalid_argument("the path of an obstacle needs a pose and a step of more than 0 s");
   }

@@ -150,6 +150,15 @@ void bindObstacleForecast(py::module_& module) {
              return ObstacleForecast(nativeOf(distance), toPose(place), std::move(path));
            }),
            py::arg("distance"), py::arg("place"), py::arg("begin"), py::arg("step"), py::arg("poses"));
+  py::class_<MeasuredObstacle>(module, "MeasuredObstacle",
+                               "An obstacle whose poses are measured. distance, place: as of ObstacleForecast; index: of its\n"
+                               "pose among those of an observation.")
+      .def(py::init([](const std::shared_ptr<NamedMinimumDistance>& distance,
+                       const Eigen::Matrix<double, 7, 1>& place, int index) {
+             const PosePath standing{0.0, 1.0, {toPose(place)}};
+             return MeasuredObstacle(ObstacleForecast(nativeOf(distance), toPose(place), standing), index);
+           }),
+           py::arg("distance"), py::arg("place"), py::arg("index"));
 }
 
 void bindDecision(py::module_& module) {
@@ -209,18 +218,18 @@ void bindController(py::module_& module) {
           "look_ahead",
           [](BoundController& bound, std::shared_ptr<RestShapes> shapes,
              const std::shared_ptr<NamedMinimumDistance>& standing, std::vector<ObstacleForecast> moving,
-             const py::object& triangles) {
+             std::vector<MeasuredObstacle> measured, const py::object& triangles) {
             std::vector<std::array<int, 3>> faces;
             if (!triangles.is_none()) {
               faces = triangles.cast<std::vector<std::array<int, 3>>>();
             }
             bound.controller.setForecast(std::make_shared<ObjectForecast>(std::move(shapes), nativeOf(standing),
-                                                                          std::move(moving), std::move(faces)));
+                                                                          std::move(moving), std::move(measured), std::move(faces)));
           },
-          py::arg("shapes"), py::arg("standing"), py::arg("moving"), py::arg("triangles"),
+          py::arg("shapes"), py::arg("standing"), py::arg("moving"), py::arg("measured"), py::arg("triangles"),
           "Looks ahead with _pbd.RestShapes, a _distance.MinimumDistance of its own from the obstacles that stand, "
           "and\n"
-          "ObstacleForecasts of the others.")
+          "ObstacleForecasts and MeasuredObstacles of the others.")
       .def(
           "find_detours",
           [](BoundController& bound, int member, std::shared_ptr<RestShapes> shapes,

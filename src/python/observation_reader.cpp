@@ -90,6 +90,10 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   if (!observation.attr("velocities").is_none()) {
     view_.velocities = numbers(observation, "velocities", "velocities", {agents, 3});
   }
+  if (!observation.attr("obstacles").is_none()) {
+    view_.obstacles = static_cast<int>(arrayOf(observation, "obstacles", "obstacles", "fiu").shape(0));
+    view_.obstacle_poses = numbers(observation, "obstacles", "obstacles", {view_.obstacles, 7});
+  }
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }

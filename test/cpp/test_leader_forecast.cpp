@@ -31,7 +31,7 @@ Vector3 path(double time) {
 Vector3 velocityOf(const Way& way, double time) { return (way(time) - way(time - CYCLE)) / CYCLE; }
 
 HorizonParameters parameters(ExpectedLeader leader) {
-  return {LENGTH, NODES, leader, FADE, 0.2, Vector3(1.0, 1.0, 0.1)};
+  return {LENGTH, NODES, leader, FADE, 0.2, 0.2, Vector3(1.0, 1.0, 0.1)};
 }
 
 struct Announcement {

@@ -6,6 +6,7 @@
 
 #include "deformable_manipulation/control/features.h"
 #include "deformable_manipulation/control/linear_shapes.h"
+#include "deformable_manipulation/control/measured_obstacle.h"
 #include "deformable_manipulation/control/obstacle_forecast.h"
 #include "deformable_manipulation/distance/minimum_distance.h"
 #include "deformable_manipulation/pbd/rest_shapes.h"
@@ -15,15 +16,23 @@ namespace control {
 
 //! The object as it will rest when its agents have moved on: its shapes at several times ahead, and their distances.
 //!
-//! Obstacles stand, or are where their paths lead until then.
+//! Obstacles stand, are where their paths lead until then, or go on with their measured velocities.
 class ObjectForecast {
  public:
   //! @param shapes null: shapes are told to first order, see needsResponse()
   //! @param standing distance from the obstacles that stand
-  //! @param moving the others
+  //! @param moving obstacles on paths
+  //! @param measured the others; they are left out while an observation does not tell their poses
   //! @param triangles of the object's points; empty: a polyline
   ObjectForecast(std::shared_ptr<pbd::RestShapes> shapes, std::shared_ptr<distance::MinimumDistance> standing,
-                 std::vector<ObstacleForecast> moving, std::vector<std::array<int, 3>> triangles);
+                 std::vector<ObstacleForecast> moving, std::vector<MeasuredObstacle> measured,
+                 std::vector<std::array<int, 3>> triangles);
+
+  //! Part of the way of a measured obstacle by which it may come nearer than expected.
+  void setObstacleDoubt(double doubt) { obstacle_doubt_ = doubt; }
+
+  //! Forgets how obstacles have moved.
+  void reset();
 
   //! Whether it has to be told how the object follows its held points before it looks ahead.
   bool needsResponse() const { return shapes_ == nullptr; }
@@ -42,12 +51,17 @@ class ObjectForecast {
   void takeFeatures(int node, int leader, Features& features) const;
 
  private:
+  void observe(const ObservationView& observation);
   void findNearest(int known);
+  void take(const std::vector<distance::Feature>& features);
 
   std::shared_ptr<pbd::RestShapes> shapes_;
   LinearShapes linear_;
   std::shared_ptr<distance::MinimumDistance> standing_;
   std::vector<ObstacleForecast> moving_;
+  std::vector<MeasuredObstacle> measured_;
+  double obstacle_doubt_ = 0.0;
+  bool told_ = false;  // where the measured ones are
   std::vector<std::array<int, 3>> triangles_;
   int agents_ = 0;
   int points_of_shape_ = 0;        // P

@@ -28,7 +28,11 @@ struct PosePath {
 class ObstacleForecast {
  public:
   //! @param distance from this obstacle alone, at the pose `place`
+  //! @throw std::invalid_argument if the path has no pose or no step
   ObstacleForecast(std::shared_ptr<distance::MinimumDistance> distance, const Pose& place, PosePath path);
+
+  //! Another path. @throw std::invalid_argument as above
+  void setPath(PosePath path);
 
   //! The nearest feature of each shape, in the fixed frame.
   //! @param object its copies are the shapes

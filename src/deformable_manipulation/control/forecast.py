@@ -18,7 +18,7 @@ _MOST_POSES = 20000  # of a path; a longer one is told less finely
 class Forecast:
     """The object as it rests when its agents have moved on, and the obstacles it may meet there.
 
-    Obstacles whose poses are measured are left out: nobody tells where they will be.
+    Obstacles whose poses are measured go on with their present velocity.
 
     Args:
         scenario: the checked scenario.
@@ -27,7 +27,7 @@ class Forecast:
         triangles: of the object's points, or None: a polyline.
         has_shapes: whether the object's shapes can be found; otherwise they are told to first
             order.
-        knows_all: whether no obstacle is left out.
+        knows_all: whether no obstacle's poses are measured.
     """
 
     def __init__(self, scenario: Scenario):
@@ -44,6 +44,7 @@ class Forecast:
             for agent in scenario.agents
         ]
         self.has_shapes = self.make_shapes() is not None
+        self._all = scenario.obstacles
         self.knows_all = len(self._known) == len(scenario.obstacles)
         self.triangles = scenario.object.faces()
         self._margin = scenario.object.margin
@@ -77,11 +78,23 @@ class Forecast:
     def _distance_from(self, obstacles):
         return MinimumDistance(obstacles, self._margin, 0.0, self.triangles)
 
+    def measured(self):
+        """New ``_control.MeasuredObstacle`` of the obstacles whose poses are measured."""
+        moving = [each for each in self._all if each.motion is not None]
+        return [
+            _control.MeasuredObstacle(self._distance_from([each]).native, _place(each), index)
+            for index, each in enumerate(moving)
+            if not isinstance(each.motion, PathMotion)
+        ]
+
     def _on_path(self, obstacle):
         begin, step, poses = sampled(obstacle)
-        place = (*obstacle.translation, *obstacle.rotation)
         distance = self._distance_from([obstacle]).native
-        return _control.ObstacleForecast(distance, place, begin, step, poses)
+        return _control.ObstacleForecast(distance, _place(obstacle), begin, step, poses)
+
+
+def _place(obstacle):
+    return (*obstacle.translation, *obstacle.rotation)
 
 
 def sampled(obstacle):

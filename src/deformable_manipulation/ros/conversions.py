@@ -50,12 +50,12 @@ def agent_positions(state, scenario) -> np.ndarray:
     return positions[agent_order(state, scenario)]
 
 
-def to_observation(state, distances, scenario, age=0.0, intent=None) -> Observation:
+def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=None) -> Observation:
     """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
     Time counts from the start of the run: cycles of the scenario's rate. ``age`` [s] is that of the
     state: commands act when a cycle starts, so each whole cycle that has passed makes them late by
-    one. ``intent``: the leader's Intent.
+    one. ``intent``: the leader's Intent. ``obstacles``: (K, 7) poses of those that move.
 
     Raises:
         MessageError: another frame, an array's size does not fit, or an agent is missing.
@@ -81,6 +81,7 @@ def to_observation(state, distances, scenario, age=0.0, intent=None) -> Observat
         distances=distances,
         velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
+        obstacles=obstacles,
         intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
     )
@@ -142,6 +143,11 @@ def to_distances(message) -> Distances:
         return Distances(**arrays, names=list(message.obstacles))
     except ValueError as error:
         raise MessageError(str(error)) from error
+
+
+def to_obstacle_poses(message) -> np.ndarray:
+    """Poses (K, 7) of the moving obstacles in a ``Distances`` message. Raises MessageError."""
+    return _reshaped(message.obstacle_poses, "obstacle_poses", (len(message.moving_obstacles), 7))
 
 
 def _obstacle_velocities(values, shape):

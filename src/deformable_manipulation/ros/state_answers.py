@@ -44,16 +44,16 @@ class StateAnswers:
 
         Args:
             state: the ObjectState.
-            distances_of: function without arguments that gives the core's Distances of it; may
-                raise MessageError.
+            distances_of: function without arguments that gives the core's Distances of it and the
+                poses (K, 7) of the moving obstacles; may raise MessageError.
             intent: the leader's Intent, if it announces one.
         """
         started = self._answered_at = time.perf_counter()
         observation, fault = None, ""
         try:
-            distances = distances_of()
+            distances, obstacles = distances_of()
             age = self._age(state)
-            observation = to_observation(state, distances, self._scenario, age, intent)
+            observation = to_observation(state, distances, self._scenario, age, intent, obstacles)
         except MessageError as error:
             fault = f"cycle {state.cycle} cannot be used, {error}"
         decisions = self._decide(state, observation, fault)

@@ -56,6 +56,15 @@ class HorizonSpec:
         live=Live(("horizon_leader_doubt",), 0.0, 10.0),
         native=True,
     )
+    obstacle_doubt: float = parameter(
+        Number("1", at_least=0.0, at_most=10.0),
+        "How much smaller than predicted the distance from an obstacle may be whose pose is "
+        "measured, per metre that it would travel at its present velocity until then. Raise it "
+        "for obstacles that turn without warning.",
+        default=0.2,
+        live=Live(("horizon_obstacle_doubt",), 0.0, 10.0),
+        native=True,
+    )
     weights: Vector = parameter(
         vector("1", at_least=1e-6, at_most=1e6),
         "Cost per axis of leaving the nominal velocity early, behind a leader that moves at "

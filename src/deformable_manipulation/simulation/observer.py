@@ -31,6 +31,7 @@ class Observer:
         """
         simulation = self._simulation
         points = simulation.points(out=self._points)
+        distances = self.distances_of(points)  # moves the obstacles
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,
@@ -39,8 +40,9 @@ class Observer:
             displaced_agents=simulation.displaced_agents(),
             displacements=simulation.displacements(),
             ready=simulation.ready(),
-            distances=self.distances_of(points),
+            distances=distances,
             sensitivities=self._sensitivities(),
+            obstacles=self._obstacles.poses(),
             intent=intent,
         )
 
