@@ -14,7 +14,8 @@ constexpr int STEPS = 32;          // of an extrapolated path: between two poses
 
 Vector3 rotationVector(const pbd::Quaternion& rotation) {
   const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() <= M_PI ? Vector3(turn.angle() * turn.axis()) : Vector3((turn.angle() - 2.0 * M_PI) * turn.axis());
+  return turn.angle() <= M_PI ? Vector3(turn.angle() * turn.axis())
+                              : Vector3((turn.angle() - 2.0 * M_PI) * turn.axis());
 }
 
 pbd::Quaternion turned(const Vector3& vector, const pbd::Quaternion& rotation) {

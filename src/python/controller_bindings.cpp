@@ -150,11 +150,12 @@ void bindObstacleForecast(py::module_& module) {
              return ObstacleForecast(nativeOf(distance), toPose(place), std::move(path));
            }),
            py::arg("distance"), py::arg("place"), py::arg("begin"), py::arg("step"), py::arg("poses"));
-  py::class_<MeasuredObstacle>(module, "MeasuredObstacle",
-                               "An obstacle whose poses are measured. distance, place: as of ObstacleForecast; index: of its\n"
-                               "pose among those of an observation.")
-      .def(py::init([](const std::shared_ptr<NamedMinimumDistance>& distance,
-                       const Eigen::Matrix<double, 7, 1>& place, int index) {
+  py::class_<MeasuredObstacle>(
+      module, "MeasuredObstacle",
+      "An obstacle whose poses are measured. distance, place: as of ObstacleForecast; index: of its\n"
+      "pose among those of an observation.")
+      .def(py::init([](const std::shared_ptr<NamedMinimumDistance>& distance, const Eigen::Matrix<double, 7, 1>& place,
+                       int index) {
              const PosePath standing{0.0, 1.0, {toPose(place)}};
              return MeasuredObstacle(ObstacleForecast(nativeOf(distance), toPose(place), standing), index);
            }),
@@ -223,8 +224,8 @@ void bindController(py::module_& module) {
             if (!triangles.is_none()) {
               faces = triangles.cast<std::vector<std::array<int, 3>>>();
             }
-            bound.controller.setForecast(std::make_shared<ObjectForecast>(std::move(shapes), nativeOf(standing),
-                                                                          std::move(moving), std::move(measured), std::move(faces)));
+            bound.controller.setForecast(std::make_shared<ObjectForecast>(
+                std::move(shapes), nativeOf(standing), std::move(moving), std::move(measured), std::move(faces)));
           },
           py::arg("shapes"), py::arg("standing"), py::arg("moving"), py::arg("measured"), py::arg("triangles"),
           "Looks ahead with _pbd.RestShapes, a _distance.MinimumDistance of its own from the obstacles that stand, "

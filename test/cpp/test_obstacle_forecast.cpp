@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "deformable_manipulation/control/measured_obstacle.h"
 #include "deformable_manipulation/control/obstacle_forecast.h"
 #include "deformable_manipulation/distance/planar_obstacle.h"
 
@@ -104,6 +105,61 @@ TEST(ObstacleForecast, APathNeedsAPose) {
   using Obstacles = std::vector<std::shared_ptr<distance::Obstacle>>;
   const auto distance = std::make_shared<distance::MinimumDistance>(Obstacles{block()}, MARGIN, 0.0);
   EXPECT_THROW(ObstacleForecast(distance, Pose(), PosePath()), std::invalid_argument);
+}
+
+//! A block that is measured as it moves and turns at constant velocity.
+MeasuredObstacle measured(double seconds, double leap = 0.0) {
+  using Obstacles = std::vector<std::shared_ptr<distance::Obstacle>>;
+  const auto distance = std::make_shared<distance::MinimumDistance>(Obstacles{block()}, MARGIN, 0.0);
+  const PosePath standing{0.0, 1.0, {Pose()}};
+  MeasuredObstacle obstacle(ObstacleForecast(distance, Pose(), standing), 0);
+  for (int k = 0; k <= 100; ++k) {
+    const double time = 0.01 * k * seconds;
+    obstacle.observe(time, {Vector3(0.0, 0.1 * time + (k == 100 ? leap : 0.0), 0.2 * time), turned(0.3 * time)});
+  }
+  return obstacle;
+}
+
+distance::Feature nearest(MeasuredObstacle& obstacle, const std::vector<double>& points, double time, double doubt) {
+  distance::ObjectView object;
+  object.points = points.data();
+  object.copies = 1;
+  object.point_count = POINTS;
+  return obstacle.compute(object, {time}, doubt).front();
+}
+
+TEST(MeasuredObstacle, GoesOnWithItsVelocity) {
+  const std::vector<double> points = polylines(1);
+  MeasuredObstacle obstacle = measured(2.0);
+  const auto moving = block();
+  distance::MinimumDistance reference({moving}, MARGIN, 0.0);
+  distance::ObjectView object;
+  object.points = points.data();
+  object.copies = 1;
+  object.point_count = POINTS;
+  for (const double time : {2.0, 2.5, 4.0}) {
+    moving->setPose(Vector3(0.0, 0.1 * time, 0.2 * time), turned(0.3 * time));
+    const double expected = reference.compute(object).features.front().distance;
+    EXPECT_NEAR(nearest(obstacle, points, time, 0.0).distance, expected, 1e-3) << time;
+  }
+}
+
+TEST(MeasuredObstacle, DoubtGrowsWithItsWay) {
+  const std::vector<double> points = polylines(1);
+  MeasuredObstacle obstacle = measured(2.0);
+  const auto loss = [&](double time) {
+    return nearest(obstacle, points, time, 0.0).distance - nearest(obstacle, points, time, 0.5).distance;
+  };
+  EXPECT_NEAR(loss(2.0), 0.0, 1e-12);
+  EXPECT_GT(loss(3.0), 0.5 * 0.1);
+  EXPECT_GT(loss(4.0), 1.5 * loss(3.0));
+}
+
+TEST(MeasuredObstacle, ThatLeapsIsAtRest) {
+  const std::vector<double> points = polylines(1);
+  MeasuredObstacle obstacle = measured(2.0, 0.5);
+  const double now = nearest(obstacle, points, 2.0, 0.5).distance;
+  EXPECT_NEAR(nearest(obstacle, points, 4.0, 0.5).distance, now, 1e-12);
 }
 
 }  // namespace

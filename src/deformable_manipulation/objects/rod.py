@@ -89,6 +89,8 @@ class RodSpec(ObjectSpec):
     jacobian = "equilibrium"
     disturbance_filter = 0.1
     horizon_length = 3.0
+    collision_margin = 0.002
+    collision_speed_margin = 0.0
     has_joints = True
     is_surface = False
     rviz_example = "rope_one_assistant"

@@ -275,6 +275,8 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
             filled[key] = getattr(spec, key)
     if controller.horizon.length is None:
         filled["horizon"] = dataclasses.replace(controller.horizon, length=spec.horizon_length)
+    for name in controller.barriers:
+        filled[name] = BARRIERS[name].for_object(getattr(controller, name), spec)
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)

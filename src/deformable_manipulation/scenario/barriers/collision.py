@@ -44,6 +44,7 @@ class CollisionSpec:
         "The rows keep this much more than `offset`. "
         "Raise it for noisy poses or an uncertain object.",
         default=0.002,
+        default_text="`0.002`; for fabrics `0.01`",
         live=Live(("collision_margin",), 0.0, 0.2),
     )
     speed_margin: float = parameter(
@@ -51,6 +52,7 @@ class CollisionSpec:
         "And this much more per m/s of the leader's speed. "
         "Raise it where the leader turns without warning.",
         default=0.0,
+        default_text="`0`; for fabrics `0.2`",
         paper=0.0,
         live=Live(("collision_speed_margin",), 0.0, 10.0),
         native=True,
@@ -94,4 +96,5 @@ BARRIER = BarrierKind(
     margin="distance minus offset",
     missed="too near an obstacle",
     default=NOTHING,
+    of_object=("margin", "speed_margin"),
 )

@@ -1,7 +1,8 @@
 """What is declared of a barrier."""
 
+import dataclasses
 from dataclasses import dataclass
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Tuple
 
 from deformable_manipulation.reading.parameter import declared_below, parameter
 from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number, Section
@@ -31,6 +32,7 @@ class BarrierKind:
             of :mod:`~..parameter` demands the section.
         derive: what the C++ core needs beyond the parameters: called with the object, the agents
             and the controller; gives a mapping of plain values.
+        of_object: keys whose defaults the object has, as attributes ``NAME_KEY``.
         check: called with a Report, the object, the agents and the controller; reports what does
             not go together.
     """
@@ -44,6 +46,7 @@ class BarrierKind:
     default: Any
     derive: Callable[..., Dict[str, Any]] = _nothing
     check: Callable[..., None] = _no_check
+    of_object: Tuple[str, ...] = ()
 
     def __post_init__(self):
         if self.default is not None:
@@ -57,10 +60,17 @@ class BarrierKind:
                     )
                 )
 
+    def for_object(self, section: Any, spec) -> Any:
+        """The section with what depends on the object filled in where it was left out."""
+        missing = [key for key in self.of_object if getattr(section, key) is None]
+        return dataclasses.replace(
+            section, **{key: getattr(spec, f"{self.name}_{key}") for key in missing}
+        )
+
     def field(self):
         """The parameter of the section ``controller`` that holds this barrier's section."""
         return parameter(
-            Section(self.spec),
+            Section(self.spec, defaults=dict.fromkeys(self.of_object)),
             self.meaning,
             default=self.default,
             default_text="none" if self.default is None else "all defaults",
@@ -68,7 +78,15 @@ class BarrierKind:
         )
 
 
-def margin_parameter(meaning: str, default: float, live):
+def margin_parameter(meaning: str, default: float, live, default_text: str = ""):
     """The parameter ``margin`` that most barriers have: how far the rows stay within the limit."""
     reader = Number("m", at_least=0.0, at_most=LARGEST_COORDINATE)
-    return parameter(reader, meaning, default=default, paper=0.0, live=live, native=True)
+    return parameter(
+        reader,
+        meaning,
+        default=default,
+        default_text=default_text,
+        paper=0.0,
+        live=live,
+        native=True,
+    )
