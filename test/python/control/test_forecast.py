@@ -1,10 +1,13 @@
 """Obstacles over the horizon: where their paths lead."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from deformable_manipulation.control.forecast import Forecast, sampled
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.team import TeamController
 from deformable_manipulation.motion.obstacle_motion import ObstaclePath
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import load_scenario
@@ -39,9 +42,33 @@ def test_obstacles_on_paths_are_told_apart(name, moving):
     assert len(Forecast(load_scenario(name)).moving()) == moving
 
 
-def test_what_is_measured_is_left_out():
-    scenario = load_scenario("rope_moving_obstacle", [("obstacles.0.motion", "{topic: block}")])
-    assert not Forecast(scenario).moving()
+MEASURED = ("obstacles.0.motion", "{topic: block}")
+
+
+def test_what_is_measured_is_told_by_its_number():
+    forecast = Forecast(load_scenario("rope_moving_obstacle", [MEASURED]))
+    assert not forecast.moving() and len(forecast.measured()) == 1 and not forecast.knows_all
+
+
+def commands_behind(observations, *overrides):
+    """What a controller that knows no path commands."""
+    scenario = load_scenario("rope_moving_obstacle", [MEASURED, *overrides])
+    team = TeamController(scenario, ["assistant_1"])
+    return np.array([team.update(each)["assistant_1"].command for each in observations])
+
+
+def test_a_measured_obstacle_is_expected_to_go_on():
+    """The block rises; the same poses without a path make who looks ahead rise sooner."""
+    loop = ClosedLoop(load_scenario("rope_moving_obstacle", [("controller.horizon.length", "0")]))
+    observations = []
+    for _ in range(480):
+        observed = loop._observer.observe()
+        observations.append(dataclasses.replace(observed, points=observed.points.copy()))
+        loop.step()
+    assert observations[0].obstacles.shape == (1, 7)
+    ahead = commands_behind(observations, AHEAD)
+    present = commands_behind(observations, ("controller.horizon.length", "0"))
+    assert ahead[450, 2] > 1.5 * present[450, 2] > 0.01
 
 
 def run(seconds, *overrides):
