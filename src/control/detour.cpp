@@ -11,7 +11,9 @@ constexpr double kStays = 0.02;    // [m] within which it stays then
 constexpr double kSlow = 0.01;     // [m/s] below which an assistant does not get on
 constexpr double kFar = 0.05;      // [m] from its place
 constexpr double kPatience = 1.0;  // [s] before a search begins
-constexpr double kSlowest = 5.0;   // [s] from one place on the way to the next
+constexpr double kAhead = 2.0;     // steps that it aims ahead on the way
+constexpr double kStride = 0.05;   // steps by which the aim moves
+constexpr double kSlowest = 5.0;   // [s] without getting on before it gives up
 constexpr double kForget = 30.0;   // [s] after which another search may find a way: obstacles may have moved
 constexpr int kAttempts = 3;       // from where the assistant has got to
 
@@ -48,7 +50,7 @@ void Detour::update(const ObservationView& observation, const Traveller& travell
     reset();
   }
   if (state_ == DetourState::FOLLOWING) {
-    aim_ = way_[std::min<std::size_t>(1, way_.size() - 1)] - traveller.leader;
+    aim_ = carrot_ - traveller.leader;
   }
 }
 
@@ -68,6 +70,7 @@ void Detour::search(double time) {
   switch (search_.advance()) {
     case DetourSearch::Outcome::FOUND:
       way_ = search_.way();
+      carrot_ = way_.front();
       state_ = DetourState::FOLLOWING;
       break;
     case DetourSearch::Outcome::NO_WAY:
@@ -78,10 +81,17 @@ void Detour::search(double time) {
   }
 }
 
-//! Goes on to the next place where one is reached.
+//! Moves the aim along the way so that it stays ahead of the assistant.
 void Detour::follow(const Vector3& position, double time) {
-  while (!way_.empty() && (way_.front() - position).norm() < search_.step()) {
-    way_.erase(way_.begin());
+  const double stride = kStride * search_.step();
+  while (!way_.empty() && (carrot_ - position).norm() < kAhead * search_.step()) {
+    const Vector3 left = way_.front() - carrot_;
+    if (left.norm() <= stride) {
+      carrot_ = way_.front();
+      way_.erase(way_.begin());
+    } else {
+      carrot_ += stride * left.normalized();
+    }
     since_ = time;
   }
   if (way_.empty()) {

@@ -59,6 +59,7 @@ class Detour {
   double since_ = 0.0;                // [s] when that began, the last place on the way was reached, or no way was found
   int attempts_ = 0;                  // since the leader rests
   std::vector<Vector3> way_;          // [m] left to go
+  Vector3 carrot_ = Vector3::Zero();  // [m] on the way, ahead of the assistant
 };
 
 }  // namespace control

@@ -85,6 +85,12 @@ SUBJECT_LIST: Sequence[Subject] = (
         campaigns.measure_stiff_rods,
     ),
     Subject(
+        {"campaigns_fabric": SAFETY},
+        "run_campaign fabric_three_assistants --runs N --seed SEED --duration 60 [--set VALUE]",
+        CAMPAIGNS,
+        campaigns.measure_fabrics,
+    ),
+    Subject(
         {"campaigns_moving_obstacle": SAFETY},
         "run_campaign rope_moving_obstacle --runs 200 --seed 1 --duration 40 [--set VALUE]",
         CAMPAIGNS,
