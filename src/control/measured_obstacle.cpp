@@ -51,7 +51,7 @@ const std::vector<distance::Feature>& MeasuredObstacle::compute(const distance::
         {pose_.position + ahead * velocity_.linear, turned(ahead * velocity_.angular, pose_.orientation)});
   }
   forecast_.setPath(std::move(path));
-  features_ = forecast_.compute(object, times);
+  features_ = forecast_.compute(object, times, time_);
   for (int copy = 0; copy < object.copies; ++copy) {
     distance::Feature& feature = features_[copy];
     const double ahead = std::max(0.0, times[copy] - time_);

@@ -54,6 +54,7 @@ void ObjectForecast::reset() {
 }
 
 void ObjectForecast::observe(const ObservationView& observation) {
+  now_ = observation.time;
   told_ = observation.obstacle_poses != nullptr;
   for (MeasuredObstacle& obstacle : measured_) {
     told_ = told_ && obstacle.index() < observation.obstacles;
@@ -80,7 +81,7 @@ void ObjectForecast::findNearest(int known) {
   }
   times_.resize(known);
   for (ObstacleForecast& obstacle : moving_) {
-    take(obstacle.compute(object, times_));
+    take(obstacle.compute(object, times_, now_));
   }
   for (MeasuredObstacle& obstacle : measured_) {
     if (told_) {

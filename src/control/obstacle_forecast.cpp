@@ -32,10 +32,36 @@ void ObstacleForecast::setPath(PosePath path) {
 }
 
 const std::vector<distance::Feature>& ObstacleForecast::compute(const distance::ObjectView& object,
-                                                                const std::vector<double>& times) {
+                                                                const std::vector<double>& times, double now) {
+  find(object, times, &features_);
+  if (std::any_of(features_.begin(), features_.end(), [](const auto& feature) { return feature.distance < 0.0; })) {
+    keepSides(object, times, now);
+  }
+  return features_;
+}
+
+//! Shapes that the obstacle moves into are to leave by the side from which it comes.
+void ObstacleForecast::keepSides(const distance::ObjectView& object, const std::vector<double>& times, double now) {
+  find(object, std::vector<double>(times.size(), now), &present_);
+  const Pose here = path_.at(now);
+  for (int copy = 0; copy < object.copies; ++copy) {
+    if (features_[copy].distance < 0.0) {
+      const Pose then = path_.at(times[copy]);
+      distance::Feature& feature = features_[copy] = present_[copy];
+      const Vector3 arm = here.orientation.conjugate() * (feature.obstacle_point - here.position);
+      const Vector3 moved = then.position + then.orientation * arm - feature.obstacle_point;
+      feature.distance -= feature.normal.dot(moved);
+      feature.obstacle_point += moved;
+    }
+  }
+}
+
+//! The nearest features of the shapes from the obstacle where it is at their times.
+void ObstacleForecast::find(const distance::ObjectView& object, const std::vector<double>& times,
+                            std::vector<distance::Feature>* features) {
   const Eigen::Index count = object.point_count;
   points_.resize(3 * static_cast<std::size_t>(count) * object.copies);
-  features_.resize(object.copies);
+  features->resize(object.copies);
   for (int copy = 0; copy < object.copies; ++copy) {
     const Pose then = path_.at(times[copy]);
     const Eigen::Matrix3d turn = (place_.orientation * then.orientation.conjugate()).toRotationMatrix();
@@ -50,14 +76,13 @@ const std::vector<distance::Feature>& ObstacleForecast::compute(const distance::
   for (int copy = 0; copy < object.copies; ++copy) {
     const Pose then = path_.at(times[copy]);
     const Eigen::Matrix3d back = (then.orientation * place_.orientation.conjugate()).toRotationMatrix();
-    distance::Feature& feature = features_[copy] = found.features[found.offsets[copy]];
+    distance::Feature& feature = (*features)[copy] = found.features[found.offsets[copy]];
     for (Vector3* point : {&feature.object_point, &feature.obstacle_point}) {
       *point = then.position + back * (*point - place_.position);
     }
     feature.normal = back * feature.normal;
     feature.obstacle_velocity.setZero();
   }
-  return features_;
 }
 
 }  // namespace control

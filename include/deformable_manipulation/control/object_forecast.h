@@ -61,6 +61,7 @@ class ObjectForecast {
   std::vector<ObstacleForecast> moving_;
   std::vector<MeasuredObstacle> measured_;
   double obstacle_doubt_ = 0.0;
+  double now_ = 0.0;   // [s]
   bool told_ = false;  // where the measured ones are
   std::vector<std::array<int, 3>> triangles_;
   int agents_ = 0;

@@ -25,6 +25,9 @@ struct PosePath {
 //!
 //! The obstacle stays where it is; each shape is put where it is as seen from the obstacle at its time. So all of them
 //! are computed at once, whatever the path.
+//!
+//! An obstacle that moves into a shape would have the shape leave by the nearest side, which need not be the one from
+//! which it came. Such a shape has the feature of the obstacle at present, as far as that moves along its normal.
 class ObstacleForecast {
  public:
   //! @param distance from this obstacle alone, at the pose `place`
@@ -37,15 +40,22 @@ class ObstacleForecast {
   //! The nearest feature of each shape, in the fixed frame.
   //! @param object its copies are the shapes
   //! @param times [copies] s
+  //! @param now [s] the present
   //! @return [copies] valid until the next call; of an obstacle that stands
-  const std::vector<distance::Feature>& compute(const distance::ObjectView& object, const std::vector<double>& times);
+  const std::vector<distance::Feature>& compute(const distance::ObjectView& object, const std::vector<double>& times,
+                                                double now);
 
  private:
+  void find(const distance::ObjectView& object, const std::vector<double>& times,
+            std::vector<distance::Feature>* features);
+  void keepSides(const distance::ObjectView& object, const std::vector<double>& times, double now);
+
   std::shared_ptr<distance::MinimumDistance> distance_;
   Pose place_;
   PosePath path_;
   std::vector<double> points_;  // [copies x points x 3] m, as seen from the obstacle at `place`
   std::vector<distance::Feature> features_;
+  std::vector<distance::Feature> present_;  // of the obstacle where it is now
 };
 
 }  // namespace control

@@ -109,6 +109,12 @@ SUBJECT_LIST: Sequence[Subject] = (
         announcements.measure_announcements,
     ),
     Subject(
+        {"wrong_announcements": SAFETY},
+        "run_campaign rope_one_assistant --runs 40 --seed 11 --duration 50 --speed 0.3 [OPTIONS]",
+        CAMPAIGNS,
+        announcements.measure_wrong_announcements,
+    ),
+    Subject(
         {"terms": SAFETY},
         "run_campaign rope_one_assistant --runs 100 --seed 7 --duration 60 [OPTIONS]",
         CAMPAIGNS,
