@@ -68,7 +68,7 @@ def test_a_measured_obstacle_is_expected_to_go_on():
     assert observations[0].obstacles.shape == (1, 7)
     ahead = commands_behind(observations, AHEAD)
     present = commands_behind(observations, ("controller.horizon.length", "0"))
-    assert ahead[450, 2] > 1.5 * present[450, 2] > 0.01
+    assert ahead[450, 2] > 1.25 * present[450, 2] > 0.01
 
 
 def run(seconds, *overrides):
