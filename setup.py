@@ -20,8 +20,10 @@ MODULES = ("_control", "_distance", "_pbd")
 COMMANDS = (
     "benchmark",
     "check_scenario",
+    "identify",
     "new_scenario",
     "plot_run",
+    "replay",
     "run_campaign",
     "run_scenario",
     "validate",

@@ -90,6 +90,18 @@ void Body::setPose(int particle, const Pose& pose) {
   findHeld(particle).pose = pose;
 }
 
+void Body::moveTo(int particle, const Pose& pose, double duration) {
+  requirePose(pose);
+  if (!(duration > 0.0) || !std::isfinite(duration)) {
+    throw std::invalid_argument("a duration must be finite and > 0 [s], not " + std::to_string(duration));
+  }
+  const Pose& from = held(particle).pose;
+  Quaternion turn = pose.orientation * from.orientation.conjugate();
+  turn.coeffs() *= turn.w() < 0.0 ? -1.0 : 1.0;
+  const Eigen::AngleAxisd rotation(turn.normalized());
+  setTwist(particle, {(pose.position - from.position) / duration, rotation.angle() / duration * rotation.axis()});
+}
+
 HeldPoint& Body::findHeld(int particle) { return const_cast<HeldPoint&>(held(particle)); }
 
 const HeldPoint& Body::held(int particle) const {
@@ -136,6 +148,18 @@ void Body::removeCopy(int id) {
   }
   copies_.erase(found);
   resizeCopies();
+}
+
+void Body::setState(const double* points, const double* velocities) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const int numbers = 3 * pointCount();
+  if (!std::all_of(points, points + numbers, finite) || !std::all_of(velocities, velocities + numbers, finite)) {
+    throw std::invalid_argument("the points and velocities of a state must be finite");
+  }
+  placeState(points, velocities);
+  for (int copy = 1; copy < copyCount(); ++copy) {
+    restartCopy(copy);
+  }
 }
 
 void Body::step(double time_step, int substeps) {

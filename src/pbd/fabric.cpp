@@ -226,6 +226,15 @@ void Fabric::layOut() {
   stop();
 }
 
+void Fabric::placeState(const double* points, const double* velocities) {
+  FabricLanes& lanes = state_->groups[0];
+  for (int i = 0; i < pointCount(); ++i) {
+    write3(lanes.position, i, 0, Eigen::Map<const Vector3>(points + 3 * i));
+    write3(lanes.previous_position, i, 0, Eigen::Map<const Vector3>(points + 3 * i));
+    write3(lanes.velocity, i, 0, Eigen::Map<const Vector3>(velocities + 3 * i));
+  }
+}
+
 void Fabric::stop() { state_->groups.fill(&FabricLanes::velocity, 0.0); }
 
 void Fabric::displace(int particle, const Vector3& by) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "deformable_manipulation/pbd/rod_equilibrium.h"
@@ -10,6 +13,7 @@
 #include "reference_motion.h"
 #include "rod_kernel.h"
 #include "rod_layout.h"
+#include "rod_viscosity.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -28,6 +32,9 @@ double axialCompliance(int segments) {
   const double coarser = std::min(1.0, kManySegments / segments);
   return kAxialCompliance * coarser * coarser;
 }
+
+// Of a segment's length: points nearer than that have no direction.
+constexpr double kLeastChord = 1e-3;
 
 // Of the inertia of a free segment: torques do not turn a clamped one.
 constexpr double kClampedInertia = 1e30;
@@ -108,22 +115,36 @@ Rod::~Rod() = default;
 std::unique_ptr<Body> Rod::clone() const { return std::unique_ptr<Body>(new Rod(*this)); }
 
 void Rod::setMaterial(const std::vector<MaterialParameter>& parameters) {
+  static constexpr std::pair<const char*, double RodParameters::*> kKeys[] = {
+      {"young_modulus", &RodParameters::young_modulus},
+      {"torsion_modulus", &RodParameters::torsion_modulus},
+      {"damping", &RodParameters::damping},
+      {"drag_coefficient", &RodParameters::drag_coefficient},
+      {"bending_retardation_time", &RodParameters::bending_retardation_time},
+      {"torsion_retardation_time", &RodParameters::torsion_retardation_time}};
   RodParameters changed = parameters_;
   ParameterCheck check;
   for (const MaterialParameter& parameter : parameters) {
-    if (parameter.key == "young_modulus") {
-      changed.young_modulus = parameter.value;
-    } else if (parameter.key == "torsion_modulus") {
-      changed.torsion_modulus = parameter.value;
-    } else if (parameter.key == "damping") {
-      changed.damping = parameter.value;
+    const auto* found = std::find_if(std::begin(kKeys), std::end(kKeys),
+                                     [&](const auto& known) { return parameter.key == known.first; });
+    if (found == std::end(kKeys)) {
+      check.require(false, parameter.key, parameter.value,
+                    "young_modulus, torsion_modulus, damping, drag_coefficient, bending_retardation_time or "
+                    "torsion_retardation_time");
     } else {
-      check.require(false, parameter.key, parameter.value, "young_modulus, torsion_modulus or damping");
+      changed.*found->second = parameter.value;
     }
   }
   changed.check(check);
   check.throwIfAny();
   parameters_ = changed;
+}
+
+std::vector<MaterialParameter> Rod::dampings() const {
+  return {{"damping", parameters_.damping},
+          {"drag_coefficient", parameters_.drag_coefficient},
+          {"bending_retardation_time", parameters_.bending_retardation_time},
+          {"torsion_retardation_time", parameters_.torsion_retardation_time}};
 }
 
 double Rod::freeLength(int particle, int other) const {
@@ -202,6 +223,56 @@ void Rod::setShape(const double* points) {
   stop();
 }
 
+//! The frame of the first clamped hold runs along the rod, so that the rod is not twisted there.
+void Rod::placeState(const double* points, const double* velocities) {
+  const int n = parameters_.segments;
+  const auto row = [](const double* from, int i) { return Eigen::Map<const Vector3>(from + 3 * i); };
+  std::vector<Vector3> directions(n);
+  for (int i = 0; i < n; ++i) {
+    directions[i] = row(points, i + 1) - row(points, i);
+    if (directions[i].norm() < kLeastChord * parameters_.segmentLength()) {
+      throw std::invalid_argument("points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide");
+    }
+  }
+  setShape(points);
+  const auto clamped =
+      std::find_if(holds().begin(), holds().end(), [](const HeldPoint& held) { return held.type == Hold::CLAMPED; });
+  const int start = clamped != holds().end() ? clamped->particle : 0;
+  Quaternion frame = clamped != holds().end() ? clamped->pose.orientation : pose(0).orientation;
+  const auto carry = [&](int i) {
+    frame = (Quaternion::FromTwoVectors(tangent(frame), directions[i]) * frame).normalized();
+    write4(state_->groups[0].orientation, i, 0, frame);
+    write4(state_->groups[0].previous_orientation, i, 0, frame);
+  };
+  carry(start);
+  const Quaternion middle = frame;
+  for (int i = start + 1; i < n; ++i) {
+    carry(i);
+  }
+  frame = middle;
+  for (int i = start - 1; i >= 0; --i) {
+    carry(i);
+  }
+  closeGaps();
+  for (int i = 0; i < n; ++i) {
+    const Vector3 spreading = row(velocities, i + 1) - row(velocities, i);
+    write3(state_->groups[0].velocity, i, 0, 0.5 * (row(velocities, i) + row(velocities, i + 1)));
+    write3(state_->groups[0].angular_velocity, i, 0,
+           Vector3(directions[i].cross(spreading) / directions[i].squaredNorm()));
+  }
+}
+
+//! Brings the segments end to end by substeps so short that nothing else happens.
+void Rod::closeGaps() {
+  constexpr double kAtOnce = 1e-7;  // s
+  constexpr int kMost = 2000;       // the direct solver needs a few, sweeps many
+  for (int i = 0; i < kMost && std::abs(stretch()) > 1e-9; ++i) {
+    step(kAtOnce, 1);
+    stop();
+  }
+  state_->groups.fill(&RodLanes::multiplier, 0.0);
+}
+
 void Rod::stop() {
   state_->groups.fill(&RodLanes::velocity, 0.0);
   state_->groups.fill(&RodLanes::angular_velocity, 0.0);
@@ -218,18 +289,36 @@ void Rod::beginStep(double h) {
   in.h = h;
   in.segment_length = l;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
+  in.drag = p.dragPerDistance();
   in.inertia_ratio = p.axialInertia() / p.transverseInertia() - 1.0;
-  in.bending_compliance = l / (p.bendingStiffness() * h2);
-  in.torsion_compliance = l / (p.torsionStiffness() * h2);
-  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
-  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
-  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
+  describeJoints(h);
   in.axial_compliance =
       p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : axialCompliance(p.segments) / p.segmentMass();
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
   dampTowardsReference(h);
   state_->connect();
+}
+
+void Rod::describeJoints(double h) {
+  const RodParameters& p = parameters_;
+  RodSubstepInput& in = state_->input;
+  const double h2 = h * h;
+  const double l = p.segmentLength();
+  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
+  in.bending_compliance = l / (p.bendingStiffness() * h2);
+  in.torsion_compliance = l / (p.torsionStiffness() * h2);
+  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
+  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
+  in.viscous = p.bending_retardation_time > 0.0 || p.torsion_retardation_time > 0.0;
+  const JointViscosity viscosity = jointViscosity(p, h);
+  in.bending_viscosity = std::min(viscosity.bending * in.bending_stiffness, rigid);
+  in.torsion_viscosity = std::min(viscosity.torsion * in.torsion_stiffness, rigid);
+  const JointViscosity swept = sweptViscosity(p, h);
+  in.bending_elasticity = 1.0 / (1.0 + swept.bending);
+  in.torsion_elasticity = 1.0 / (1.0 + swept.torsion);
+  in.bending_compliance *= in.bending_elasticity;
+  in.torsion_compliance *= in.torsion_elasticity;
 }
 
 void Rod::updateReferenceMotion() {

@@ -12,7 +12,8 @@
 //
 // They are eliminated in the order th_0, f_0, th_1, f_1, ..., in blocks of 3 x 3 which are all
 // positive definite, and found in the opposite order. A held segment has no inverse mass, a
-// clamped one a huge inertia. See docs/mathematics.md, whose symbols are used here.
+// clamped one a huge inertia. Viscous joints add their viscosity to K_j, and to sigma_j its product
+// with the rotation predicted. See docs/mathematics.md, whose symbols are used here.
 
 #include "rod_pack.h"
 
@@ -26,12 +27,24 @@ struct Elasticity {
   Vec3 sigma;
 };
 
-DM_INLINE Elasticity elasticityOf(const Joint& joint, double bending, double torsion) {
+//! K of a joint with these stiffnesses.
+DM_INLINE Symmetric3 stiffnessOf(const Joint& joint, double bending, double torsion) {
   const Pack lean = joint.lean;
-  const Pack torque = torsion * lean;  // per twist
   const Pack relief = (-0.5 * bending) * lean;
-  return {addOuter(addOuter(isotropic(broadcast(bending)), relief, joint.normal), relief + lean * torque, joint.sum),
+  return addOuter(addOuter(isotropic(broadcast(bending)), relief, joint.normal), relief + lean * (torsion * lean),
+                  joint.sum);
+}
+
+DM_INLINE Elasticity elasticityOf(const Joint& joint, double bending, double torsion) {
+  const Pack torque = torsion * joint.lean;  // per twist
+  return {stiffnessOf(joint, bending, torsion),
           scaleAdd(torque * joint.twist, joint.sum, broadcast(bending) * joint.normal)};
+}
+
+//! Adds the torque that resists the rotation of the second segment against the first one: predicted, and to come.
+DM_INLINE void addViscosity(Elasticity& elasticity, const Symmetric3& viscosity, const Vec3& rotation) {
+  elasticity.k = elasticity.k + viscosity;
+  elasticity.sigma = multiplyAdd(viscosity, rotation, elasticity.sigma);
 }
 
 //! The next segment and the joint after it, as they are once all before them is eliminated:
@@ -52,6 +65,7 @@ struct ChainSolution {
   Vec3 force;
 };
 
+template <bool viscous>
 class RodChain {
  public:
   RodChain(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
@@ -88,6 +102,10 @@ class RodChain {
     Joint joint = pack_.joint(j, front.segment.q, front.tangent, next.q, d);
     Elasticity elasticity =
         elasticityOf(joint, active ? in_.bending_stiffness : 0.0, active ? in_.torsion_stiffness : 0.0);
+    if (viscous && active) {
+      addViscosity(elasticity, stiffnessOf(joint, in_.bending_viscosity, in_.torsion_viscosity),
+                   pack_.turnedSince(j + 1, next.q) - pack_.turnedSince(j, front.segment.q));
+    }
 
     // th = A^-1 (torque + R f + K th')
     const Symmetric3& k = elasticity.k;

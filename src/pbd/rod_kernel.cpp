@@ -11,9 +11,18 @@ namespace DEFORMABLE_MANIPULATION_ISA {
 namespace {
 
 template <typename Solver>
-void substep(const RodSubstepInput& input, int copies, RodLanes& lanes) {
+void solvePacks(const RodSubstepInput& input, int copies, RodLanes& lanes) {
   for (int lane = 0; lane < copies; lane += kPackWidth) {
     Solver(input, lanes, lane).substep();
+  }
+}
+
+template <template <bool viscous> class Solver>
+void substep(const RodSubstepInput& input, int copies, RodLanes& lanes) {
+  if (input.viscous) {
+    solvePacks<Solver<true>>(input, copies, lanes);
+  } else {
+    solvePacks<Solver<false>>(input, copies, lanes);
   }
 }
 

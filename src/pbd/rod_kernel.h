@@ -43,14 +43,20 @@ struct HeldSegment {
 //! a multiplier is a force or torque times h^2.
 struct RodSubstepInput {
   int segments;
-  double h;                                  // s
-  double segment_length;                     // m
-  double gravity[3];                         // m/s^2
-  double inertia_ratio;                      // (axial - transverse) / transverse moment of inertia
-  double bending_compliance;                 // l / (E I h^2)
-  double torsion_compliance;                 // l / (G J h^2)
-  double bending_stiffness;                  // E I h^2 / l, as far as the direct solver can tell it from rigid
-  double torsion_stiffness;                  // G J h^2 / l, likewise
+  double h;                   // s
+  double segment_length;      // m
+  double gravity[3];          // m/s^2
+  double inertia_ratio;       // (axial - transverse) / transverse moment of inertia
+  double bending_compliance;  // l / (E I h^2), times bending_elasticity
+  double torsion_compliance;  // l / (G J h^2), times torsion_elasticity
+  double bending_stiffness;   // E I h^2 / l, as far as the direct solver can tell it from rigid
+  double torsion_stiffness;   // G J h^2 / l, likewise
+  double drag;                // 1/m, speed across the axis that is lost per way through air
+  bool viscous;               // whether the joints resist their rate of bending or twisting
+  double bending_viscosity;   // of a joint: torque per rotation in a substep, retardation time / h
+  double torsion_viscosity;   // times the stiffness
+  double bending_elasticity;  // elastic part of a joint's resistance: 1 / (1 + retardation time / h)
+  double torsion_elasticity;
   double axial_compliance;                   // l / (E A h^2)
   double floor_compliance;                   // keeps the joint's matrix regular when both of its segments are held
   const double* inverse_mass;                // [N] 1/kg, zero where held

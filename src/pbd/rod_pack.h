@@ -45,6 +45,15 @@ class RodPack {
     return j >= 0 && j + 1 < in_.segments ? load3(multiplier_ + 2 * at3(j), kLanes) : Vec3{};
   }
 
+  //! The same with its torque.
+  DM_INLINE JointWrench lastWrench(int j) const {
+    if (j < 0 || j + 1 >= in_.segments) {
+      return JointWrench{Vec3{}, Vec3{}};
+    }
+    const double* from = multiplier_ + 2 * at3(j);
+    return {load3(from, kLanes), load3(from + 3 * kLanes, kLanes)};
+  }
+
   DM_INLINE void storeWrench(int j, const JointWrench& wrench) {
     double* to = multiplier_ + 2 * at3(j);
     store3(to, kLanes, wrench.force);
@@ -57,6 +66,12 @@ class RodPack {
     Joint joint = jointBetween(q0, d0, q1, d1, load(twist));
     store(twist, joint.twist);
     return joint;
+  }
+
+  //! How far a segment, which now is at an orientation, has turned since the substep began.
+  DM_INLINE Vec3 turnedSince(int i, const Quat& q) const {
+    Quat turned = rotationBetween(load4(previous_orientation_ + at4(i), kLanes), q);
+    return (2.0 * signOf(turned.w)) * turned.v;
   }
 
   //! Moves all segments as if there were no joints, and the held ones to where they are held.
@@ -93,6 +108,9 @@ class RodPack {
     store4(previous_orientation_ + at4(i), kLanes, start.q);
     if (in_.inverse_mass[i] > 0.0) {
       Vec3 v = scaleAdd(h, broadcast3(in_.gravity), load3(velocity_ + at3(i), kLanes));
+      if (in_.drag > 0.0) {
+        v = slowed(v, tangentOf(start.q));
+      }
       store3(position_ + at3(i), kLanes, scaleAdd(h, v, start.x));
     }
     if (in_.inverse_transverse[i] > 0.0) {
@@ -102,6 +120,13 @@ class RodPack {
       Vec3 precession = (in_.inertia_ratio * dot(d, omega)) * cross(omega, d);
       store4(orientation_ + at4(i), kLanes, rotated(start.q, (0.5 * h) * scaleAdd(-h, precession, omega)));
     }
+  }
+
+  //! Velocity after the drag of a substep, which is implicit in the speed.
+  DM_INLINE Vec3 slowed(const Vec3& v, const Vec3& tangent) const {
+    Vec3 across = scaleAdd(-dot(v, tangent), tangent, v);
+    const Pack loss = (in_.drag * in_.h) * squareRoot(dot(across, across));
+    return scaleAdd(-loss / (1.0 + loss), across, v);
   }
 
   void place(const HeldSegment& held) {

@@ -6,6 +6,8 @@ namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
+constexpr double kAirDensity = 1.2;  // kg/m^3, at sea level and 20 degrees Celsius
+
 double area(double radius) { return M_PI * radius * radius; }
 
 }  // namespace
@@ -20,6 +22,9 @@ RodParameters RodParameters::read(const ParameterSection& object, const Paramete
   p.torsion_modulus = object.number("torsion_modulus");
   p.stretch = object.choice<Stretch>("stretch", {{"zero", Stretch::ZERO}, {"from_moduli", Stretch::FROM_MODULI}});
   p.damping = object.number("damping");
+  p.drag_coefficient = object.number("drag_coefficient");
+  p.bending_retardation_time = object.number("bending_retardation_time");
+  p.torsion_retardation_time = object.number("torsion_retardation_time");
   p.pose = object.section("pose").pose("position", "orientation");
   p.gravity = simulation.vector<3>("gravity");
   p.solver = simulation.choice<RodSolver>("solver",
@@ -35,6 +40,9 @@ void RodParameters::check(ParameterCheck& check) const {
   check.positive("young_modulus", young_modulus, "[Pa]");
   check.positive("torsion_modulus", torsion_modulus, "[Pa]");
   check.notNegative("damping", damping, "[1/s]");
+  check.notNegative("drag_coefficient", drag_coefficient, "[1]");
+  check.notNegative("bending_retardation_time", bending_retardation_time, "[s]");
+  check.notNegative("torsion_retardation_time", torsion_retardation_time, "[s]");
   check.require(threads >= 1 && threads <= 256, "threads", threads, "a whole number from 1 to 256");
   check.require(gravity.allFinite(), "gravity", gravity.norm(), "three finite numbers [m/s^2]");
   check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");
@@ -49,6 +57,10 @@ double RodParameters::transverseInertia() const {
 }
 
 double RodParameters::axialInertia() const { return 0.5 * segmentMass() * radius * radius; }
+
+double RodParameters::dragPerDistance() const {
+  return 0.5 * kAirDensity * drag_coefficient * 2.0 * radius / (density * area(radius));
+}
 
 double RodParameters::bendingStiffness() const { return young_modulus * area(radius) * radius * radius / 4.0; }
 

@@ -1,6 +1,8 @@
 #pragma once
 
-// Gauss-Seidel: joint by joint along a rod, each with its own 6 x 6 system.
+// Gauss-Seidel: joint by joint along a rod, each with its own 6 x 6 system. With the strain C and its
+// change D since the substep began, a viscous joint resists as an elastic one of compliance e alpha with
+// the strain e C + (1 - e) D, where e = 1 / (1 + retardation time / h).
 
 #include "rod_pack.h"
 
@@ -40,6 +42,7 @@ DM_INLINE Strain strainOf(const Joint& joint, const Quat& dq) {
   return {dq, joint.d0, scaleAdd(-dot(joint.d0, dq.v), joint.d0, dq.v), joint.axis() - b, joint.twist};
 }
 
+template <bool viscous>
 class RodSweep {
  public:
   RodSweep(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
@@ -96,13 +99,33 @@ class RodSweep {
     Vec3 gap = gapOf(joint, first.x, second.x, half_length_);
     Matrix3 v = y * p;
     Symmetric3 q = inverse(z - multiplyTransposedAdd(v, y, Symmetric3{}));
-    Vec3 moment = q * multiplyAdd(v, gap, -strain.value());
+    Vec3 resisted = strain.value();
+    if (viscous) {
+      Vec3 change = turnToCome(j + 1, i1, joint.d1) - pack_.turnedSince(j, first.q);
+      resisted = resistedStrain(strain, pack_.turnedSince(j + 1, second.q) + change);
+    }
+    Vec3 moment = q * multiplyAdd(v, gap, -resisted);
     Vec3 force = -transposedMultiplyAdd(v, moment, p * gap);
 
     Vec3 torque = -strain.pull(moment);
     move(j, first, i0, joint.d0, force, crossAdd(half_length_ * joint.d0, force, torque));
     move(j + 1, second, i1, joint.d1, -force, crossAdd(half_length_ * joint.d1, force, -torque));
     return {force, torque};
+  }
+
+  //! How far the joint after a segment will turn it, as in the last substep: a rod at rest has no rate of strain.
+  DM_INLINE Vec3 turnToCome(int i, const Inverse& inverse, const Vec3& d) const {
+    JointWrench next = pack_.lastWrench(i);
+    return applyInverseInertia(inverse, d, crossAdd(half_length_ * d, next.force, next.torque));
+  }
+
+  //! The elastic part of the strain, and the viscous part of its change.
+  DM_INLINE Vec3 resistedStrain(const Strain& strain, const Vec3& rotation) const {
+    Vec3 change = strain.change(rotation);
+    Vec3 rest = strain.value() - change;
+    const Pack bending = broadcast(in_.bending_elasticity);
+    const Pack torsion = in_.torsion_elasticity - bending;
+    return change + scaleAdd(torsion * dot(strain.d0, rest), strain.d0, bending * rest);
   }
 
   //! Moves a segment by an impulse (times h) and an angular impulse (times h).

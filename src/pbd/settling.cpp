@@ -47,21 +47,27 @@ void requireOptions(const SettleOptions& options) {
 
 }  // namespace
 
-//! Calls settling() with the holds at rest and a damping that is neither too low nor too high.
+//! Calls settling() with the holds at rest and a damping that is neither too low nor too high. Viscosity would let the
+//! object creep.
 template <typename Settling>
 auto Body::quicklyDamped(const SettleOptions& options, Settling settling) {
   requireOptions(options);
   for (HeldPoint& held : holds_) {
     held.twist = Twist();
   }
-  const double own = damping();
-  const double quick = std::min(std::max(own, kLeastDamping), kMostDamping);
-  if (quick == own) {
+  const std::vector<MaterialParameter> own = dampings();
+  std::vector<MaterialParameter> quick = own;
+  for (MaterialParameter& parameter : quick) {
+    parameter.value = 0.0;
+  }
+  quick.front().value = std::min(std::max(own.front().value, kLeastDamping), kMostDamping);
+  const auto same = [](const MaterialParameter& a, const MaterialParameter& b) { return a.value == b.value; };
+  if (std::equal(own.begin(), own.end(), quick.begin(), same)) {
     return settling();
   }
-  setMaterial({{"damping", quick}});
+  setMaterial(quick);
   const auto result = settling();
-  setMaterial({{"damping", own}});
+  setMaterial(own);
   return result;
 }
 

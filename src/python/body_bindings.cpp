@@ -1,5 +1,7 @@
 // Arguments and results that all bodies share, and the body itself.
 
+#include <algorithm>
+
 #include "bindings.h"
 #include "deformable_manipulation/pbd/object_kinds.h"
 #include "parameter_value_from_python.h"
@@ -86,6 +88,10 @@ void bindBody(py::module_& module) {
       .def_property_readonly("copy_count", &Body::copyCount, "C, with the object itself.")
       .def_property_readonly("mass", &Body::mass, "Mass [kg].")
       .def_property_readonly("stretch", &Body::stretch, "Relative error of the object's own length or size.")
+      .def(
+          "softness", &Body::softness, py::arg("time_step"), py::arg("substeps"),
+          "Where substeps cannot keep the stiffness or viscosity of the material: what it comes to and what helps, as\n"
+          "sentences; otherwise empty.")
       .def("free_length", &Body::freeLength, py::arg("particle"), py::arg("other"),
            "Largest distance [m] between two particles of the unstretched object.")
       .def(
@@ -118,6 +124,38 @@ void bindBody(py::module_& module) {
             body.setPose(particle, {position, toQuaternion(orientation)});
           },
           py::arg("particle"), py::arg("position"), py::arg("orientation"), "Puts a held particle at a pose at once.")
+      .def(
+          "move_to",
+          [](Body& body, int particle, const Vector3& position, const Vector4& orientation, double duration) {
+            body.moveTo(particle, {position, toQuaternion(orientation)}, duration);
+          },
+          py::arg("particle"), py::arg("position"), py::arg("orientation"), py::arg("duration"),
+          "Sets the constant velocity with which a held particle is at a pose after a duration [s], such as that of "
+          "the\n"
+          "next step.")
+      .def(
+          "set_state",
+          [](Body& body, const Array& points, const py::object& velocities) {
+            const Shape shape = {body.pointCount(), 3};
+            Array rates(shape);
+            std::fill_n(rates.mutable_data(), rates.size(), 0.0);
+            if (!velocities.is_none()) {
+              rates = velocities.cast<Array>();
+            }
+            for (const Array* array : {&points, static_cast<const Array*>(&rates)}) {
+              if (Shape(array->shape(), array->shape() + array->ndim()) != shape) {
+                throw py::value_error("points and velocities must have the shape " +
+                                      std::string(py::str(py::cast(shape))));
+              }
+            }
+            body.setState(points.data(), rates.data());
+          },
+          py::arg("points"), py::arg("velocities") = py::none(),
+          "Puts the object and its copies into a state: points (P, 3) [m] as measured, velocities (P, 3) [m/s] (rest "
+          "if\n"
+          "not given). Holds stay where they are. Rods close the gaps that measured lengths leave; clamped at both "
+          "ends,\n"
+          "they have the twist that their holds give them. Raises ValueError.")
       .def("add_copy", &Body::addCopy, py::arg("particle"), py::arg("displacement"),
            "Adds a copy with a held particle displaced by (3,) [m]; returns its id. It starts as the object is\n"
            "and moves to its displacement.")

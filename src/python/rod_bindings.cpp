@@ -11,6 +11,7 @@ namespace {
 
 std::unique_ptr<Rod> makeRod(double length, double radius, double density, int segments, double young_modulus,
                              double torsion_modulus, const std::string& stretch, double damping,
+                             double drag_coefficient, double bending_retardation_time, double torsion_retardation_time,
                              const std::string& solver, int threads, const Vector3& gravity, const Vector3& position,
                              const Vector4& orientation) {
   RodParameters p;
@@ -22,6 +23,9 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
   p.torsion_modulus = torsion_modulus;
   p.stretch = choose<Stretch>("stretch", stretch, {{"zero", Stretch::ZERO}, {"from_moduli", Stretch::FROM_MODULI}});
   p.damping = damping;
+  p.drag_coefficient = drag_coefficient;
+  p.bending_retardation_time = bending_retardation_time;
+  p.torsion_retardation_time = torsion_retardation_time;
   p.solver =
       choose<RodSolver>("solver", solver, {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
   p.threads = threads;
@@ -66,13 +70,16 @@ void bindRod(py::module_& module) {
                         "A rope or rod of rigid segments with zero-stretch bending-twisting joints (Deul et al. 2018)\n"
                         "and small substeps. The particles are the segments, the points their N + 1 ends.\n\n"
                         "length, radius [m], density [kg/m^3], young_modulus, torsion_modulus [Pa], damping [1/s] of\n"
-                        "motion relative to the held points, gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
+                        "motion relative to the held points, drag_coefficient across the axis in still air, "
+                        "retardation times [s] of bending and twist (viscosity\n"
+                        "over stiffness), gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
                         "solver 'direct' or 'gauss_seidel'; threads that advance the copies, eight each. Undeformed it "
                         "lies along the x axis of the pose given by\n"
                         "position (3,) [m] and orientation (4,). Raises ParameterError.")
       .def(py::init(&makeRod), py::kw_only(), py::arg("length"), py::arg("radius"), py::arg("density"),
            py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch"),
-           py::arg("damping"), py::arg("solver"), py::arg("threads") = 1, py::arg("gravity"),
+           py::arg("damping"), py::arg("drag_coefficient") = 0.0, py::arg("bending_retardation_time") = 0.0,
+           py::arg("torsion_retardation_time") = 0.0, py::arg("solver"), py::arg("threads") = 1, py::arg("gravity"),
            py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 

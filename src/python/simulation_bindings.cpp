@@ -108,7 +108,8 @@ void bindSimulation(py::module_& module) {
           [](const Simulation& simulation) {
             return simulation.body().softness(simulation.clock().time_step, simulation.clock().substeps);
           },
-          "Where the substeps cannot hold the stiffness of the material: what it comes to and what helps, as\n"
+          "Where the substeps cannot keep the stiffness or viscosity of the material: what it comes to and what helps, "
+          "as\n"
           "sentences; otherwise empty.")
       .def_property_readonly(
           "rest_warning", [](const Simulation& simulation) { return describe(simulation.rest()); },

@@ -68,6 +68,9 @@ XmlRpcValue rod() {
   result["torsion_modulus"] = 4e6;
   result["stretch"] = "zero";
   result["damping"] = 10.0;
+  result["drag_coefficient"] = 1.2;
+  result["bending_retardation_time"] = 0.05;
+  result["torsion_retardation_time"] = 0.0;
   result["pose"] = pose();
   return result;
 }

@@ -28,13 +28,14 @@ TEST(RodParameters, areRefusedAllAtOnce) {
   p.segments = 1;
   p.young_modulus = std::numeric_limits<double>::infinity();
   p.damping = -1.0;
+  p.bending_retardation_time = -1.0;
   p.threads = 0;
   try {
     Rod rod(p);
     FAIL() << "no exception";
   } catch (const ParameterError& error) {
     EXPECT_EQ(keysOf(error), (std::vector<std::string>{"length", "radius", "density", "segments", "young_modulus",
-                                                       "damping", "threads"}));
+                                                       "damping", "bending_retardation_time", "threads"}));
     EXPECT_EQ(error.problems()[0].value, "-1");
     EXPECT_NE(error.problems()[0].allowed.find("> 0 [m]"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("length: -1 - must be"), std::string::npos);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "../../src/pbd/rod_kernel.h"
 
@@ -18,7 +19,7 @@ constexpr double kAxial = 3e-8;
 //! A rod of eight different shapes, clamped at its first segment and pinned at its last.
 class RodInput {
  public:
-  RodInput() {
+  explicit RodInput(bool viscous) {
     inverse_mass_.front() = inverse_mass_.back() = 0.0;
     inverse_transverse_.front() = inverse_axial_.front() = 0.0;
     transverse_inertia_.front() = 1e30 * kTransverse;
@@ -35,6 +36,12 @@ class RodInput {
     in_.torsion_stiffness = 0.02 * in_.h * in_.h / in_.segment_length;
     in_.bending_compliance = 1.0 / in_.bending_stiffness;
     in_.torsion_compliance = 1.0 / in_.torsion_stiffness;
+    in_.drag = viscous ? 0.5 : 0.0;
+    in_.viscous = viscous;
+    in_.bending_viscosity = in_.torsion_viscosity = 3.0 * in_.bending_stiffness;
+    in_.bending_elasticity = in_.torsion_elasticity = viscous ? 0.25 : 1.0;
+    in_.bending_compliance *= in_.bending_elasticity;
+    in_.torsion_compliance *= in_.torsion_elasticity;
     in_.axial_compliance = 1e-3;
     in_.floor_compliance = 1e-6;
     in_.inverse_mass = inverse_mass_.data();
@@ -97,13 +104,14 @@ void expectNear(const AlignedArray& a, const AlignedArray& b, double tolerance, 
   }
 }
 
-class Kernels : public testing::TestWithParam<RodSubstep RodKernel::*> {
+class Kernels : public testing::TestWithParam<std::tuple<RodSubstep RodKernel::*, bool>> {
  protected:
   static RodLanes run(const RodKernel& kernel, int copies) {
-    RodInput rod;
+    const auto [substep_of, viscous] = GetParam();
+    RodInput rod(viscous);
     RodLanes lanes = startingLanes();
     for (int substep = 0; substep < 400; ++substep) {
-      (kernel.*GetParam())(rod.at(substep), copies, lanes);
+      (kernel.*substep_of)(rod.at(substep), copies, lanes);
     }
     return lanes;
   }
@@ -138,9 +146,13 @@ TEST_P(Kernels, leaveTheOtherLanesOfTheirPacksFinite) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BothSolvers, Kernels, testing::Values(&RodKernel::direct, &RodKernel::gauss_seidel),
-                         [](const testing::TestParamInfo<RodSubstep RodKernel::*>& info) {
-                           return info.param == &RodKernel::direct ? "direct" : "gauss_seidel";
+INSTANTIATE_TEST_SUITE_P(BothSolvers, Kernels,
+                         testing::Combine(testing::Values(&RodKernel::direct, &RodKernel::gauss_seidel),
+                                          testing::Bool()),
+                         [](const testing::TestParamInfo<Kernels::ParamType>& info) {
+                           const bool direct = std::get<0>(info.param) == &RodKernel::direct;
+                           return std::string(direct ? "direct" : "gauss_seidel") +
+                                  (std::get<1>(info.param) ? "_viscous" : "");
                          });
 
 }  // namespace

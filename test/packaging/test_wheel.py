@@ -12,8 +12,10 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 COMMANDS = (
     "benchmark",
     "check_scenario",
+    "identify",
     "new_scenario",
     "plot_run",
+    "replay",
     "run_campaign",
     "run_scenario",
     "validate",

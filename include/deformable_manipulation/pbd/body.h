@@ -74,7 +74,7 @@ class Body {
   //! Relative error of the length (or size) of the object itself against the unstretched one.
   virtual double stretch() const = 0;
 
-  //! If substeps of this length [s] cannot keep the material's stiffness: sentences about the resulting stiffness and
+  //! If substeps of this length [s] cannot keep the material's stiffness or viscosity: sentences about what results and
   //! about what helps. Otherwise empty.
   virtual std::string softness(double time_step, int substeps) const;
 
@@ -106,6 +106,11 @@ class Body {
   //! Puts a held particle at a pose at once, for agents whose pose is given by others.
   //! @throw std::invalid_argument as for hold().
   void setPose(int particle, const Pose& pose);
+
+  //! Sets the constant velocity with which a held particle is at a pose after a duration [s], by the shortest turn.
+  //! It keeps that velocity until it is changed.
+  //! @throw std::invalid_argument as setPose(), or if the duration is not finite and positive.
+  void moveTo(int particle, const Pose& pose, double duration);
 
   const std::vector<HeldPoint>& holds() const { return holds_; }
 
@@ -149,6 +154,12 @@ class Body {
 
   //! Places every copy, at rest and undisplaced, on a curve of the right length between the held points.
   virtual void layOut() = 0;
+
+  //! Puts the object and its copies, undisplaced, into a measured state. Holds stay where they are.
+  //! @param points  [pointCount x 3] m, as near to the unstretched object as they were measured
+  //! @param velocities  [pointCount x 3] m/s
+  //! @throw std::invalid_argument if a number is not finite, or neighbouring points of a line coincide.
+  void setState(const double* points, const double* velocities);
 
   //! Advances all copies by a time step [s].
   //! @throw ParameterError if the time step is not finite and positive or substeps < 1; nothing
@@ -219,11 +230,14 @@ class Body {
   //! Sets all velocities to zero.
   virtual void stop() = 0;
 
+  //! setState() of the object itself.
+  virtual void placeState(const double* points, const double* velocities) = 0;
+
   //! Moves a particle of the object itself.
   virtual void displace(int particle, const Vector3& by) = 0;
 
-  //! 1/s
-  virtual double damping() const = 0;
+  //! What takes energy from motion: first the damping [1/s], which settling needs, then what it does without.
+  virtual std::vector<MaterialParameter> dampings() const = 0;
 
   void requireParticle(int particle) const;
 

@@ -74,7 +74,8 @@ class Fabric final : public Body {
   double highestSpeed() const override;
   void stop() override;
   void displace(int particle, const Vector3& by) override;
-  double damping() const override { return parameters_.damping; }
+  void placeState(const double* points, const double* velocities) override;
+  std::vector<MaterialParameter> dampings() const override { return {{"damping", parameters_.damping}}; }
 
  private:
   struct State;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "deformable_manipulation/pbd/body.h"
 #include "deformable_manipulation/pbd/rod_parameters.h"
@@ -21,7 +23,8 @@ class Rod final : public Body {
 
   const RodParameters& parameters() const { return parameters_; }
 
-  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s].
+  //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s], drag_coefficient, bending_retardation_time,
+  //! torsion_retardation_time [s].
   void setMaterial(const std::vector<MaterialParameter>& parameters) override;
 
   std::unique_ptr<Body> clone() const override;
@@ -32,12 +35,13 @@ class Rod final : public Body {
   double freeLength(int particle, int other) const override;
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
   double stretch() const override;
+  std::string softness(double time_step, int substeps) const override;
   Wrench wrench(int particle) const override;
   ResponseStatus response(double* to) override;
   std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
   void layOut() override;
 
-  //! Puts the object itself, at rest, into a measured shape, without a twist of its own.
+  //! Puts the object itself, at rest, into a shape, without a twist of its own.
   //! @param points [(segments + 1) x 3] m; segments lie between them, as long as they are anyway
   void setShape(const double* points);
 
@@ -61,12 +65,15 @@ class Rod final : public Body {
   double highestSpeed() const override;
   void stop() override;
   void displace(int particle, const Vector3& by) override;
-  double damping() const override { return parameters_.damping; }
+  void placeState(const double* points, const double* velocities) override;
+  std::vector<MaterialParameter> dampings() const override;
 
  private:
   struct State;
   Rod(const Rod& other);
 
+  void describeJoints(double h);
+  void closeGaps();
   void updateReferenceMotion();
   void dampTowardsReference(double h);
   void letReferenceFall();

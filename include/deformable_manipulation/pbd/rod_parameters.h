@@ -29,7 +29,10 @@ struct RodParameters {
   double young_modulus;    //!< [Pa] bending
   double torsion_modulus;  //!< [Pa] twist
   Stretch stretch;
-  double damping;  //!< [1/s] decay rate of motion relative to the held points
+  double damping;                         //!< [1/s] decay rate of motion relative to the held points
+  double drag_coefficient = 0.0;          //!< of the cross-section in still air, across the axis
+  double bending_retardation_time = 0.0;  //!< [s] viscosity over stiffness of bending (Kelvin-Voigt)
+  double torsion_retardation_time = 0.0;  //!< [s] likewise of twist
   RodSolver solver;
   int threads = 1;  //!< that advance the copies, eight in each; results do not depend on it
   Vector3 gravity;  //!< [m/s^2]
@@ -45,6 +48,7 @@ struct RodParameters {
   double segmentMass() const;                                 //!< [kg]
   double transverseInertia() const;                           //!< [kg m^2] of a segment, across its axis
   double axialInertia() const;                                //!< [kg m^2] of a segment, about its axis
+  double dragPerDistance() const;                             //!< [1/m] speed lost across the axis, per way through air
   double bendingStiffness() const;                            //!< E I [N m^2]
   double torsionStiffness() const;                            //!< G J [N m^2]
   double axialStiffness() const;                              //!< E A [N]

@@ -118,6 +118,16 @@ def describe_motion(motion) -> str:
     return "pose of tf frame {}".format(motion.frame)
 
 
+def describe_controller(controller, assistants: int) -> str:
+    """How the assistants decide, in a few words."""
+    parts = ["{} formulation".format(controller.formulation)]
+    if assistants > 1:
+        parts.append(controller.cooperation)
+    if controller.horizon.length > 0.0:
+        parts.append("looks {:g} s ahead".format(controller.horizon.length))
+    return "controller: {}".format(", ".join(parts))
+
+
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
     yield "object: {}".format(scenario.object.description())
@@ -141,6 +151,7 @@ def summary(scenario: Scenario) -> Iterator[str]:
     for obstacle in scenario.obstacles:
         yield "obstacle {}: {}".format(obstacle.name, describe_obstacle(obstacle))
     yield "distance to keep from obstacles: {:g} m".format(scenario.controller.collision.offset)
+    yield describe_controller(scenario.controller, len(scenario.assistants))
     waypoints = scenario.leader.waypoints
     yield "leader's path: {} waypoint{}, {:g} s".format(
         len(waypoints), "" if len(waypoints) == 1 else "s", waypoints[-1].time

@@ -21,6 +21,7 @@ CASE_NAMES = (
     "holds",
     "convergence",
     "motion",
+    "viscosity",
     "wrenches",
     "fabrics",
     "fabric_gradients",

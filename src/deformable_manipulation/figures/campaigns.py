@@ -16,10 +16,15 @@ _CAMPAIGNS: Tuple[Tuple[str, str, int], ...] = (
     ("rope_two_assistants", _PAPER, 125),
 )
 _FABRIC = "fabric_three_assistants"
+# Each with its share, and the margins of ropes.
+_SHARES = (
+    "controller.cooperation=decentralised controller.collision.margin=0.002 "
+    "controller.collision.speed_margin=0"
+)
 # Replaced value, seeds, number of runs of each.
 _FABRICS: Tuple[Tuple[str, Sequence[int], int], ...] = (
     ("", (1, 2, 3), 100),
-    ("controller.cooperation=decentralised", (1,), 100),
+    (_SHARES, (1,), 100),
     (_PAPER, (1,), 25),
 )
 _MOVING = "rope_moving_obstacle"
@@ -106,10 +111,10 @@ def measure_fabrics(say: Say) -> Dict[str, str]:
                     str(seed),
                     missed(one),
                     str(one["deadlocks"]),
-                    _programs(one, value == _PAPER),
+                    str(one["relaxed_programs"]),
                 ]
             )
-    header = ["", "seed", "runs that missed a limit", "deadlocks", "programs relaxed; failed"]
+    header = ["", "seed", "runs that missed a limit", "deadlocks", "programs relaxed"]
     return {"campaigns_fabric": table(header, rows)}
 
 
@@ -223,4 +228,4 @@ def _programs(found: Dict, paper: bool) -> str:
 
 
 def _set(value: str) -> List[str]:
-    return ["--set", value] if value else []
+    return [word for each in value.split() for word in ("--set", each)]

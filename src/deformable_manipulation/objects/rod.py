@@ -24,6 +24,7 @@ _SUBSTEPS_OF_CHAINS = ((1.5e-3, 2), (2.5e-4, 4), (0.0, 8))
 _GRAVITY = 9.81  # m/s^2
 _SOFT_FOAM = 1e4  # Pa
 LARGEST_MODULUS = 1e13  # Pa, ten times that of diamond
+RETARDATION_TIME = Number("s", at_least=0.0, at_most=100.0)
 MODULUS = Number("Pa", above=0.0, at_most=LARGEST_MODULUS)
 
 
@@ -75,6 +76,27 @@ class RodSpec(ObjectSpec):
         "Decay rate of motion relative to the held points. Lower it for an object that swings for "
         "long, raise it for one that comes to rest sooner.",
         default=10.0,
+        native=True,
+    )
+    drag_coefficient: float = parameter(
+        Number("", at_least=0.0, at_most=100.0),
+        "Drag in still air across the axis: 1.2 for a round cross-section. Matters for light "
+        "objects that move faster than 1 m/s.",
+        default=0.0,
+        native=True,
+    )
+    bending_retardation_time: float = parameter(
+        RETARDATION_TIME,
+        "Viscosity over stiffness of bending (Kelvin-Voigt): the joints resist being bent quickly. "
+        "Slow swings are hardly damped, quick ones much. Ropes have some hundredths of a second; "
+        "then lower `damping`.",
+        default=0.0,
+        native=True,
+    )
+    torsion_retardation_time: float = parameter(
+        RETARDATION_TIME,
+        "The same of twist.",
+        default=0.0,
         native=True,
     )
     pose: Pose = parameter(
@@ -158,6 +180,11 @@ class RodSpec(ObjectSpec):
                     "object.{}: {:g} Pa is softer than soft foam. Moduli are in Pa, not in MPa or "
                     "GPa".format(key, modulus)
                 )
+
+    @property
+    def stiffness_over_mass(self) -> float:
+        """Bending stiffness over mass per length, E I / (rho A) [m^4/s^2]."""
+        return self._bending_stiffness() * self.length / self._mass()
 
     def _mass(self) -> float:
         """Of the whole rod [kg]."""

@@ -41,6 +41,9 @@ def find_scenario(path_or_name: str) -> Path:
     if os.path.exists(path) and not os.path.isdir(path):
         raise ScenarioError([Problem("", "is not a regular file")], str(path_or_name))
     is_bare_name = len(path.parts) == 1 and path.suffix in ("", ".yaml")
+    if not is_bare_name and os.path.isdir(path):
+        reason = "is a folder; name a scenario file in it"
+        raise ScenarioError([Problem("", reason)], str(path_or_name))
     if not is_bare_name:
         raise ScenarioError([Problem("", "there is no such file")], str(path_or_name))
     try:

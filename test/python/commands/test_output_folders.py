@@ -6,8 +6,10 @@ import pytest
 
 COMMANDS = {
     "benchmark": ["--list"],
+    "identify": ["swing.csv", "--object", "rope_one_assistant"],
     "new_scenario": ["my_own"],
     "plot_run": ["run"],
+    "replay": ["swing.csv", "--object", "rope_one_assistant"],
     "run_campaign": ["rope_one_assistant"],
     "run_scenario": ["rope_one_assistant"],
     "rviz_snapshot": ["rope_one_assistant"],

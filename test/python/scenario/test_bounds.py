@@ -12,6 +12,8 @@ ROD = [
     ("object.young_modulus", 1e300, "<= 1e+13 [Pa]"),
     ("object.torsion_modulus", 1e300, "<= 1e+13 [Pa]"),
     ("object.damping", 1e300, "<= 10000 [1/s]"),
+    ("object.bending_retardation_time", 1e300, "<= 100 [s]"),
+    ("object.drag_coefficient", 1e300, "<= 100"),
 ]
 FABRIC = [
     ("object.density", 1e300, "<= 10000 [kg/m^2]"),

@@ -29,6 +29,7 @@ def test_correct_file(path, capsys):
         "0.18 to 1.782 m",
         "block: polygon of 4 points",
         "250 cycles at 50 Hz",
+        "controller: full formulation, looks 3 s ahead",
         "1000 kg/m^3, Young's modulus 1e+07 Pa, torsion modulus 4e+06 Pa; mass "
         "0.6283 kg, bending stiffness 0.07854 N m^2",
     ):

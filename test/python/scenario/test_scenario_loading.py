@@ -139,6 +139,11 @@ def test_what_is_no_regular_file_is_refused(tmp_path):
             load_scenario(path)
 
 
+def test_a_folder_is_refused(tmp_path):
+    with pytest.raises(ScenarioError, match="is a folder; name a scenario file"):
+        load_scenario(tmp_path)
+
+
 def test_a_name_too_long_for_a_file():
     with pytest.raises(ScenarioError, match="no such file"):
         load_scenario("a" * 300)

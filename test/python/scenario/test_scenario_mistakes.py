@@ -24,6 +24,7 @@ WRONG_VALUES = [
     ("object.segments", 10.5, "a whole number"),
     ("object.segments", float("nan"), "a whole number"),
     ("object.damping", -1, "a number >= 0 and <= 10000 [1/s]"),
+    ("object.torsion_retardation_time", -1, "a number >= 0 and <= 100 [s]"),
     ("object.stretch", "zer", "did you mean 'zero'?"),
     ("object.pose", [0, 0, 0], "a section with keys position, orientation"),
     ("object.pose.orientation", [0, 0, 0, 2], "norm 1"),

@@ -13,6 +13,7 @@ from deformable_manipulation.validation.cases import (
     motion,
     spatial,
     twist,
+    viscosity,
     wrenches,
 )
 from deformable_manipulation.validation.result import CaseResult, Check
@@ -26,6 +27,7 @@ CASES: Dict[str, Callable[[bool], CaseResult]] = {
     "holds": holds.run,
     "convergence": convergence.run,
     "motion": motion.run,
+    "viscosity": viscosity.run,
     "wrenches": wrenches.run,
     "fabrics": fabrics.run,
     "fabric_gradients": fabric_gradients.run,

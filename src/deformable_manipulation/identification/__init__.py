@@ -1,0 +1,1 @@
+"""Parameters of a real object, from recordings of its motion."""

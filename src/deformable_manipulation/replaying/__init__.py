@@ -1,0 +1,1 @@
+"""Recordings of real objects, and how well a simulated object follows them."""

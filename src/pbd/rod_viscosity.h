@@ -1,0 +1,22 @@
+#pragma once
+
+#include "deformable_manipulation/pbd/rod_parameters.h"
+
+namespace deformable_manipulation {
+namespace pbd {
+
+//! Retardation times of the joints, in substeps.
+struct JointViscosity {
+  double bending;
+  double torsion;
+};
+
+//! As in the material.
+JointViscosity jointViscosity(const RodParameters& rod, double h);
+
+//! What the Gauss-Seidel solver takes of it. A joint that resists a rotation in a substep more than the inertia of a
+//! segment has less viscosity: one sweep does not carry it from joint to joint, and would become unstable.
+JointViscosity sweptViscosity(const RodParameters& rod, double h);
+
+}  // namespace pbd
+}  // namespace deformable_manipulation

@@ -1,0 +1,133 @@
+"""A recording of the package's own rope is replayed by the same rope, and not by another."""
+
+import json
+
+import numpy as np
+import pytest
+from rope_recordings import OBJECT, ROPE, SUBSTEPS, record, stiffer
+
+from deformable_manipulation.commands.replay import main
+from deformable_manipulation.replaying.difference import calm_frames, difference
+from deformable_manipulation.replaying.measured_shapes import (
+    MeasuredShapes,
+    MeasuredShapesError,
+    read_measured_shapes,
+    write_measured_shapes,
+)
+from deformable_manipulation.replaying.replay import Replay, ReplayOptions
+
+
+@pytest.fixture(scope="module")
+def shapes():
+    return record()
+
+
+def error_of(spec, shapes, **options):
+    predicted = Replay(spec, shapes, ReplayOptions(substeps=SUBSTEPS, **options)).run(spec)
+    return difference(shapes, predicted).numbers
+
+
+def test_the_same_rope_is_replayed(shapes):
+    # The first shape lies on a spline through nine points; from rest it is exact.
+    assert error_of(ROPE, shapes)["mean_distance"] < 2e-3
+    assert error_of(ROPE, shapes, start="settled")["worst_distance"] < 1e-4
+
+
+def test_another_rope_is_not(shapes):
+    assert error_of(stiffer(ROPE, 3.0), shapes, start="settled")["mean_distance"] > 5e-3
+
+
+def test_points_that_were_not_seen_are_left_out(shapes):
+    points = shapes.points.copy()
+    points[40:60, 3] = np.nan
+    some = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+    assert error_of(ROPE, some, start="settled")["worst_distance"] < 1e-4
+
+
+def test_a_recording_may_have_gaps_in_time(shapes):
+    kept = np.r_[0:50, 55:150]
+    some = MeasuredShapes(shapes.time[kept], shapes.arc_lengths, shapes.points[kept])
+    assert error_of(ROPE, some, start="settled")["mean_distance"] < 2e-3
+
+
+def test_a_grip_may_hold_the_object_at_an_angle(shapes):
+    replay = Replay(ROPE, shapes, ReplayOptions(start="settled", substeps=SUBSTEPS))
+    straight = replay.run(ROPE)
+    aimed = replay.run(ROPE, [(0.2, 0.0), (0.0, 0.0)])
+    assert np.linalg.norm(aimed - straight, axis=2)[0].max() > 0.01
+    np.testing.assert_allclose(replay.run(ROPE, [(0.0, 0.0)] * 2), straight, atol=1e-9)
+
+
+def test_a_single_point_is_pinned(shapes):
+    replay = Replay(ROPE, shapes, ReplayOptions(held=((0, 1), (7,)), start="settled"))
+    assert [grip.hold for grip in replay.grips] == ["clamped", "pinned"]
+    assert np.isfinite(replay.run(ROPE)).all()
+
+
+def test_rest_is_told_from_motion(shapes):
+    calm = calm_frames(shapes)
+    assert not calm[:49].any()
+    assert not calm[60:].any()
+    quiet = MeasuredShapes(shapes.time, shapes.arc_lengths, 0 * shapes.points)
+    assert calm_frames(quiet)[51:].all()
+
+
+@pytest.mark.parametrize(
+    "options, mistake",
+    [
+        ({"held": ((0, 9),)}, "point 9 cannot be held: there are points 0 to 8"),
+        ({"held": ((0, 1), (0,))}, "two grippers hold segment 0"),
+    ],
+)
+def test_wrong_grips_are_refused(shapes, options, mistake):
+    with pytest.raises(MeasuredShapesError, match=mistake):
+        Replay(ROPE, shapes, ReplayOptions(**options))
+
+
+class TestCommand:
+    @pytest.fixture
+    def files(self, tmp_path, shapes):
+        write_measured_shapes(tmp_path / "swing.csv", shapes)
+        (tmp_path / "rope.yaml").write_text(OBJECT)
+        return tmp_path
+
+    def run(self, files, *more):
+        given = [str(files / "swing.csv"), "--object", str(files / "rope.yaml")]
+        return main([*given, "--output", str(files / "out"), *more])
+
+    def test_writes_numbers_points_and_a_figure(self, files, capsys, shapes):
+        assert self.run(files, "--begin", "settled") == 0
+        assert "mean distance            0.0 mm" in capsys.readouterr().out
+        numbers = json.loads((files / "out" / "difference.json").read_text())
+        assert numbers["mean_per_coordinate"] < 1e-4
+        assert numbers["mean_distance_at_rest"] is None
+        predicted = read_measured_shapes(files / "out" / "predicted.csv")
+        np.testing.assert_allclose(predicted.points, shapes.points, atol=1e-4)
+        assert (files / "out" / "replay.png").stat().st_size > 10000
+
+    def test_takes_a_part_and_other_values(self, files, capsys):
+        assert self.run(files, "--from", "0.5", "--to", "1", "--set", "object.damping=20") == 0
+        predicted = read_measured_shapes(files / "out" / "predicted.csv")
+        assert predicted.time[[0, -1]] == pytest.approx((0.5, 1.0))
+
+    @pytest.mark.parametrize(
+        "more, mistake",
+        [
+            (["--set", "object.length=0.5"], "the last point is at 1 m, but the object is 0.5 m"),
+            (["--set", "object.damping=-1"], "object.damping"),
+            (["--set", "object.type=fabric"], "object"),
+            (["--from", "7"], "fewer than two shapes"),
+        ],
+    )
+    def test_tells_what_is_wrong(self, files, capsys, more, mistake):
+        assert self.run(files, *more) == 1
+        assert mistake in capsys.readouterr().err
+
+    def test_warns_of_too_few_substeps(self, files, capsys):
+        assert self.run(files, "--set", "object.torsion_modulus=1e3") == 0
+        assert "replay: WARNING: object.torsion_modulus" in capsys.readouterr().err
+
+    def test_refuses_a_list_of_points_out_of_order(self, files, capsys):
+        with pytest.raises(SystemExit):
+            self.run(files, "--held", "1,0")
+        assert "must be numbers of points in their order" in capsys.readouterr().err
