@@ -131,6 +131,12 @@ struct BoxNode {
   }
 };
 
+//! Which heights [m] are of interest.
+struct HeightRange {
+  double lowest = -INFINITY;  //!< no result is less
+  double enough = INFINITY;   //!< what is higher counts as infinite
+};
+
 //! A tree of boxes with four children a node; node 0 is the root.
 using BoxTree = std::vector<BoxNode>;
 

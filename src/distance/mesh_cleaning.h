@@ -15,7 +15,8 @@ using Triangle = std::array<int, 3>;
 struct MeshPart {
   std::vector<Vector3> vertices;  // m
   std::vector<Triangle> triangles;
-  bool closed;  // a closed surface, all triangles wound counter-clockwise as seen from outside
+  bool closed = false;   // a closed surface, all triangles wound counter-clockwise as seen from outside
+  bool endless = false;  // what is solid is around the surface, not within
 };
 
 //! Triangles by the edges they share: neighbours[t][k] is across the edge from corner k to the next one; kBoundary

@@ -1,7 +1,15 @@
 #include "deformable_manipulation/distance/mesh_obstacle.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "cell_surface.h"
+#include "coordinate_limit.h"
+#include "local_copies.h"
 #include "mesh_cleaning.h"
 #include "mesh_search.h"
+#include "obstacle_frame.h"
 #include "pose_checks.h"
 
 namespace deformable_manipulation {
@@ -38,11 +46,7 @@ class MeshObstacle::Search {
     }
   }
 
-  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
-    rotation_ = rotation.normalized().toRotationMatrix();
-    translation_ = translation;
-    velocity_ = velocity;
-  }
+  ObstacleFrame frame;
 
   void minima(const ObjectView& object, Feature* nearest) {
     prepare(object);
@@ -52,7 +56,8 @@ class MeshObstacle::Search {
       const Part* nearest_part = nullptr;
       for (Part& part : parts_) {
         Known& known = part.known[copy];
-        const MeshPlace found = part.search->minimum(object_, least.distance, guess(part, copy), &known.bounds);
+        const MeshPlace found =
+            part.search->minimum(copies_.object(), least.distance, guess(part, copy), &known.bounds);
         if (found.known()) {
           known.nearest = found;
         }
@@ -69,7 +74,7 @@ class MeshObstacle::Search {
     prepare(object);
     bring(object, 0);
     for (Part& part : parts_) {
-      part.search->elements(object_, limit, guess(part, 0), &part.known[0].bounds, &places_);
+      part.search->elements(copies_.object(), limit, guess(part, 0), &part.known[0].bounds, &places_);
       for (const MeshPlace& place : places_) {
         if (place.known()) {
           found->push_back(featureAt(object, 0, *part.search, place));
@@ -99,39 +104,28 @@ class MeshObstacle::Search {
     return {};
   }
 
-  //! Takes the object's elements and makes room for its copies.
   void prepare(const ObjectView& object) {
-    if (object_.setElements(object)) {
-      points_.clear();
-      for (Part& part : parts_) {
+    const bool others = copies_.prepare(object);
+    for (Part& part : parts_) {
+      if (others) {
         part.known.clear();
       }
-    }
-    for (int copy = static_cast<int>(points_.size()); copy < object.copies; ++copy) {
-      points_.emplace_back(object.point_count, Vector3::Zero());
-      for (Part& part : parts_) {
+      while (static_cast<int>(part.known.size()) < copies_.count()) {
         part.known.emplace_back();
-        part.known.back().bounds.reset(object_.size());
+        part.known.back().bounds.reset(copies_.object().size());
       }
     }
   }
 
   //! Takes a copy into the frame of the parts.
   void bring(const ObjectView& object, int copy) {
-    double squared_step = 0.0;
-    for (int i = 0; i < object.point_count; ++i) {
-      Vector3& point = points_[copy][i];
-      const Vector3 before = point;
-      point = toLocal(object.point(copy, i));
-      squared_step = std::max(squared_step, (point - before).squaredNorm());
-    }
+    const double step = copies_.bring(object, copy, [this](const Vector3& point) { return toLocal(point); });
     for (Part& part : parts_) {
-      part.known[copy].bounds.move(std::sqrt(squared_step));
+      part.known[copy].bounds.move(step);
     }
-    object_.setPoints(points_[copy]);
   }
 
-  Vector3 toLocal(const Vector3& point) const { return rotation_.transpose() * (point - translation_) - middle_; }
+  Vector3 toLocal(const Vector3& point) const { return frame.toLocal(point) - middle_; }
 
   Feature featureAt(const ObjectView& object, int copy, const MeshSearch& search, const MeshPlace& place) const {
     Feature feature;
@@ -143,23 +137,19 @@ class MeshObstacle::Search {
     const Vector3 local = toLocal(feature.object_point);
     const SurfacePoint nearest =
         place.there.triangle >= 0 ? place.there : search.surface().nearest(local, place.triangle);
-    const Vector3 arm = rotation_ * (local - search.surface().position(nearest));
+    const Vector3 arm = frame.toFixed(local - search.surface().position(nearest));
     feature.distance = nearest.distance;
     feature.obstacle_point = feature.object_point - arm;
     feature.normal = std::fabs(nearest.distance) > kOnSurface
                          ? Vector3(arm / nearest.distance)
-                         : Vector3(rotation_ * search.surface().pseudonormal(nearest).normalized());
-    feature.obstacle_velocity = velocity_.linear + velocity_.angular.cross(feature.obstacle_point - translation_);
+                         : Vector3(frame.toFixed(search.surface().pseudonormal(nearest).normalized()));
+    feature.obstacle_velocity = frame.velocityAt(feature.obstacle_point);
     return feature;
   }
 
   Vector3 middle_;  // m, of the parts' frame in the obstacle's
   std::vector<Part> parts_;
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
-  Vector3 translation_ = Vector3::Zero();
-  pbd::Twist velocity_;
-  ObjectTree object_;
-  std::vector<std::vector<Vector3>> points_;  // m, of the copies, in the frame of the parts
+  LocalCopies copies_;
   std::vector<MeshPlace> places_;
 };
 
@@ -170,17 +160,37 @@ MeshObstacle::MeshObstacle(const std::vector<Vector3>& vertices, const std::vect
   checkPose(translation, rotation, &problems);
   throwIfAny(problems);
   search_ = std::make_unique<Search>(std::move(parts));
-  setPose(translation, rotation);
+  search_->frame.set(translation, rotation, {});
+}
+
+MeshObstacle::MeshObstacle(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+
+std::shared_ptr<MeshObstacle> MeshObstacle::ofCells(const std::vector<std::array<int, 3>>& cells, double size,
+                                                    bool endless) {
+  std::vector<std::string> problems;
+  if (!(size > 0.0 && size * kLargestCell <= kLargestCoordinate * 1e3)) {
+    problems.push_back("size is " + std::to_string(size) + "; it must be above 0 and at most 1000 m");
+  }
+  if (cells.empty()) {
+    problems.push_back("there is no cube");
+  }
+  const auto is_far = [](const Cell& cell) {
+    return std::any_of(cell.begin(), cell.end(), [](int index) { return std::abs(index) > kLargestCell; });
+  };
+  const auto far = std::find_if(cells.begin(), cells.end(), is_far);
+  if (far != cells.end()) {
+    problems.push_back("cube " + std::to_string(far - cells.begin()) + " is too far away; indices are at most " +
+                       std::to_string(kLargestCell));
+  }
+  throwIfAny(problems);
+  std::vector<MeshPart> parts = {surfaceOfCells(cells, size, endless)};
+  return std::shared_ptr<MeshObstacle>(new MeshObstacle(std::make_unique<Search>(std::move(parts))));
 }
 
 MeshObstacle::~MeshObstacle() = default;
 
-void MeshObstacle::setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
-  std::vector<std::string> problems;
-  checkPose(translation, rotation, &problems);
-  checkTwist(velocity, &problems);
-  throwIfAny(problems);
-  search_->setPose(translation, rotation, velocity);
+void MeshObstacle::place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
+  search_->frame.set(translation, rotation, velocity);
 }
 
 void MeshObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }

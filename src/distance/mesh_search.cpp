@@ -7,14 +7,12 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
-constexpr double kSlack = 1e-9;         // m, of bounds that earlier results give: far more than rounding
 constexpr double kSameDistance = 1e-9;  // m, differences of distance below it count as none
 
 }  // namespace
 
 void MeshSearch::start(ObjectTree& object, MovingBounds* bounds) {
-  object_ = &object;
-  bounds_ = bounds;
+  startPairs(object, bounds);
   const std::size_t points = object.pointCount();
   if (samples_.size() != points) {
     samples_.assign(points, SurfacePoint());
@@ -59,7 +57,7 @@ MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace&
   if (found.element < 0) {
     return pieceInside(-1) ? deepest(known_depth) : MeshPlace();
   }
-  MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+  MeshPlace place = placeAt(found.element, found.at.weights, std::sqrt(found.at.squared), found.piece);
   if (!surface_.closed()) {
     return place;
   }
@@ -73,65 +71,11 @@ MeshPlace MeshSearch::minimum(ObjectTree& object, double bound, const MeshPlace&
   return place;
 }
 
-//! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always
-//! the same one, whatever was known before.
-MeshSearch::Nearest MeshSearch::nearestPair(double bound) {
-  Nearest nearest;
-  nearest.at.squared = (bound + kSlack) * (bound + kSlack);
-  if (bounds_->least() >= bound + kSlack) {
-    return nearest;
-  }
-  for (int element = 0; element < object_->size() && nearest.at.squared > 0.0; ++element) {
-    if (bounds_->of(element) < bound + kSlack &&
-        !bounds_->renew(element, object_->corners<3>(element), bound + kSlack)) {
-      Nearest known;
-      known.direction = bounds_->normal(element);
-      const Nearest found = nearestOf(element, bound + kSlack + bounds_->reserve(), known);
-      if (found.at.squared < nearest.at.squared) {
-        nearest = found;
-        bound = std::sqrt(found.at.squared);
-      } else if (found.element >= 0 && found.at.squared > (bound + kSlack) * (bound + kSlack)) {
-        bounds_->set(element, separate(found));  // no plane spares those as near as the nearest
-      }
-    }
-  }
-  if (nearest.element < 0) {
-    bounds_->findLeast();
-  }
-  return nearest;
-}
-
-//! The nearest pair of one element, if it is not farther apart than the reach [m].
-//! @param known a pair of it, which need not be compared again, or none
-MeshSearch::Nearest MeshSearch::nearestOf(int element, double reach, const Nearest& known) {
-  Nearest nearest;
-  nearest.at.squared = reach * reach;
-  const double lowest = object_->surface() ? search<3>(element, known, &nearest) : search<2>(element, known, &nearest);
-  bounds_->set(element, std::sqrt(lowest));
-  return nearest;
-}
-
 //! The unit vector from the surface towards the element, or zero if they touch.
 Vector3 MeshSearch::towards(const Nearest& pair) const {
   const Vector3 point = weighted<3>(object_->corners<3>(pair.element), pair.at.weights);
-  const Corners<3> triangle = surface_.corners(pair.triangle);
+  const Corners<3> triangle = surface_.corners(pair.piece);
   return (point - weighted<3>(triangle, nearestOnTriangle(point, triangle).weights)).normalized();
-}
-
-//! A plane through the nearest point of the surface, square to the way to the element, or as far behind it as needed.
-MovingBounds::Plane MeshSearch::separate(const Nearest& nearest) {
-  const Corners<3> corners = object_->corners<3>(nearest.element);
-  MovingBounds::Plane plane;
-  plane.normal = towards(nearest);
-  const double lowest = plane.normal.dot(weighted<3>(corners, nearest.at.weights)) - std::sqrt(nearest.at.squared);
-  plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), INFINITY);
-  plane.beyond = INFINITY;
-  if (plane.height > lowest + kSlack) {
-    plane.beyond = std::sqrt(nearest.at.squared) + bounds_->reserve();
-    plane.height = surface_.heightAlong(plane.normal, lowest, boxAround(corners), plane.beyond * plane.beyond);
-  }
-  plane.height += kSlack;
-  return plane;
 }
 
 //! Returns a lower bound [m^2] of the element's squared distance.
@@ -150,13 +94,13 @@ double MeshSearch::search(int element, const Nearest& known, Nearest* nearest) {
     }
     if (entry.what < 0) {
       const int triangle = ~entry.what;
-      if (triangle == known.triangle) {
+      if (triangle == known.piece) {
         if (known.at.squared < nearest->at.squared) {
           *nearest = known;  // found again
         }
       } else if (ElementDistance<K>(corners, surface_.corners(triangle)).improve(&nearest->at)) {
         nearest->element = element;
-        nearest->triangle = triangle;
+        nearest->piece = triangle;
         direction = towards(*nearest).cast<float>();
       }
       beyond = nearest->at.squared;
@@ -201,7 +145,8 @@ bool MeshSearch::pieceInside(int certified_piece) {
   for (int piece = 0; surface_.closed() && piece < static_cast<int>(pieces.size()); ++piece) {
     Box point;
     point.include(object_->point(pieces[piece]));
-    if (piece != certified_piece && surface_.box().overlaps(point) && cornerSample(pieces[piece], -1).distance < 0.0) {
+    const bool may_be = surface_.endless() || surface_.box().overlaps(point);
+    if (piece != certified_piece && may_be && cornerSample(pieces[piece], -1).distance < 0.0) {
       return true;
     }
   }
@@ -292,12 +237,11 @@ void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& gue
   start(object, bounds);
   const bool inside = surface_.closed() && minimum(object, 0.0, guess, bounds).distance <= 0.0;
   places->assign(object.size(), MeshPlace());
-  last_triangles_.resize(object.size(), -1);
   const double reach = std::max(limit, 0.0);
   for (int element = 0; element < object.size(); ++element) {
     if (!inside && bounds->of(element) < reach + kSlack) {
       (*places)[element] = outsidePlace(element, limit);
-    } else if (inside && touchesBox(element, reach)) {
+    } else if (inside && (surface_.endless() || touchesBox(element, reach))) {
       (*places)[element] = elementPlace(element, limit);
     }
   }
@@ -305,7 +249,7 @@ void MeshSearch::elements(ObjectTree& object, double limit, const MeshPlace& gue
 
 //! Compares the element and the triangle of a pair.
 void MeshSearch::improve(Nearest* pair) const {
-  const Corners<3> triangle = surface_.corners(pair->triangle);
+  const Corners<3> triangle = surface_.corners(pair->piece);
   if (object_->surface()) {
     ElementDistance<3>(object_->corners<3>(pair->element), triangle).improve(&pair->at);
   } else {
@@ -319,25 +263,10 @@ bool MeshSearch::touchesBox(int element, double reach) const {
   return std::min({away[0], away[1], away[2], away[3]}) <= reach * reach;
 }
 
-//! The nearest pair of one element, if it is not farther apart than the bound [m].
-MeshSearch::Nearest MeshSearch::nearestWithin(int element, double bound) {
-  Nearest last;
-  last.element = element;
-  last.triangle = last_triangles_[element];
-  if (last.triangle >= 0) {
-    improve(&last);
-    last.direction = towards(last);
-  }
-  const double reach = std::min(bound + bounds_->reserve(), std::sqrt(last.at.squared));
-  const Nearest found = nearestOf(element, reach + kSlack, last);
-  last_triangles_[element] = found.triangle >= 0 ? found.triangle : last.triangle;
-  return found;
-}
-
 MeshPlace MeshSearch::outsidePlace(int element, double limit) {
   const Nearest found = nearestWithin(element, std::max(limit, 0.0));
   const MeshPlace place =
-      found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+      found.element < 0 ? MeshPlace() : placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.piece);
   return place.distance <= limit ? middleOfLevel(place) : MeshPlace();
 }
 
@@ -352,7 +281,7 @@ MeshPlace MeshSearch::elementPlace(int element, double limit) {
     if (found.element < 0) {
       return {};
     }
-    crossing = placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.triangle);
+    crossing = placeAt(element, found.at.weights, std::sqrt(found.at.squared), found.piece);
     if (found.at.squared > 0.0 || !surface_.closed()) {
       return crossing.distance <= limit ? middleOfLevel(crossing) : MeshPlace();
     }

@@ -5,8 +5,7 @@
 #include "element_depth.h"
 #include "element_distance.h"
 #include "mesh_surface.h"
-#include "moving_bounds.h"
-#include "object_tree.h"
+#include "nearest_pairs.h"
 #include "search_stack.h"
 
 namespace deformable_manipulation {
@@ -29,7 +28,7 @@ struct MeshPlace {
 //! Outside, the surface's tree is searched for each element that can be near enough, as far as is known of it from
 //! calls before. An object is inside if it crosses the surface, or if one of its pieces does not but has a point
 //! inside; then its deepest point is searched, triangle by triangle (ElementDepth).
-class MeshSearch {
+class MeshSearch : private NearestPairs<MeshSearch> {
  public:
   explicit MeshSearch(const MeshPart& part) : surface_(part), depth_(surface_) {}
 
@@ -50,11 +49,7 @@ class MeshSearch {
                 std::vector<MeshPlace>* places);
 
  private:
-  struct Nearest {
-    int element = -1, triangle = -1;
-    ElementNearest at{INFINITY};
-    Vector3 direction = Vector3::Zero();  // about from the triangle to the element, at most 1 long; for speed only
-  };
+  friend class NearestPairs<MeshSearch>;
   struct Candidate {
     double depth;
     int child;
@@ -65,10 +60,10 @@ class MeshSearch {
   MeshPlace placeAt(int element, const Weights& weights, double distance, int triangle) const;
   MeshPlace placeAt(int element, const Weights& weights, const SurfacePoint& there) const;
 
-  Nearest nearestPair(double bound);
-  Nearest nearestOf(int element, double reach, const Nearest& known);
   Vector3 towards(const Nearest& pair) const;
-  MovingBounds::Plane separate(const Nearest& nearest);
+  double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach) const {
+    return surface_.heightAlong(normal, range, box, squared_reach);
+  }
   template <int K>
   double search(int element, const Nearest& known, Nearest* nearest);
   template <int K>
@@ -83,7 +78,6 @@ class MeshSearch {
   MeshPlace deepestOf(int element, double threshold);
   void improve(Nearest* pair) const;
   bool touchesBox(int element, double reach) const;
-  Nearest nearestWithin(int element, double bound);
   MeshPlace outsidePlace(int element, double limit);
   MeshPlace elementPlace(int element, double limit);
   double lowestPossible(int element, double* least);
@@ -91,13 +85,10 @@ class MeshSearch {
 
   MeshSurface surface_;
   ElementDepth depth_;
-  ObjectTree* object_ = nullptr;
-  MovingBounds* bounds_ = nullptr;
   SearchStack<int> stack_;             // nodes, or leaves as ~index
   std::vector<SurfacePoint> samples_;  // of the object's points
   std::vector<int> sampled_;           // in which round
   int round_ = 0;
-  std::vector<int> last_triangles_;  // that was the nearest to each element; a guess only
 };
 
 }  // namespace distance

@@ -12,7 +12,7 @@ constexpr double kTiny = 1e-200;        // m^2
 }  // namespace
 
 MeshSurface::MeshSurface(const MeshPart& part)
-    : vertices_(part.vertices), triangles_(part.triangles), closed_(part.closed) {
+    : vertices_(part.vertices), triangles_(part.triangles), closed_(part.closed), endless_(part.endless) {
   std::vector<Box> leaves(triangles_.size());
   for (std::size_t t = 0; t < leaves.size(); ++t) {
     leaves[t] = boxAround(corners(static_cast<int>(t)));
@@ -114,12 +114,13 @@ SurfacePoint MeshSurface::nearest(const Vector3& point, int hint, double enough)
   return found;
 }
 
-double MeshSurface::heightAlong(const Vector3& normal, double lowest, const Box& box, double squared_reach) const {
-  double highest = lowest;
+double MeshSurface::heightAlong(const Vector3& normal, const HeightRange& range, const Box& box,
+                                double squared_reach) const {
+  double highest = range.lowest;
   const Eigen::Vector3f along = normal.cast<float>();
   SearchStack<int> stack;
   stack.push(INFINITY, 0);
-  while (!stack.empty()) {
+  while (!stack.empty() && highest <= range.enough) {
     const SearchStack<int>::Entry entry = stack.pop();
     if (entry.bound <= highest) {
       continue;
@@ -138,7 +139,7 @@ double MeshSurface::heightAlong(const Vector3& normal, double lowest, const Box&
       }
     }
   }
-  return highest;
+  return highest > range.enough ? INFINITY : highest;
 }
 
 Vector3 MeshSurface::pseudonormal(const SurfacePoint& place) const {

@@ -24,6 +24,7 @@ class MeshSurface {
   explicit MeshSurface(const MeshPart& part);
 
   bool closed() const { return closed_; }
+  bool endless() const { return endless_; }
   const BoxTree& tree() const { return tree_; }
   const DiscNode& discs(int node) const { return discs_[node]; }
   const Box& box() const { return tree_[0].box; }
@@ -38,9 +39,8 @@ class MeshSurface {
   SurfacePoint nearest(const Vector3& point, int hint = -1, double enough = -1.0) const;
 
   //! How far [m] triangles reach along a unit vector.
-  //! @param lowest [m] the result is not less
   //! @param squared_reach [m^2] triangles farther than that from the box need not count
-  double heightAlong(const Vector3& normal, double lowest, const Box& box, double squared_reach) const;
+  double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach) const;
 
   //! The distance [m] of a point to one of the triangles.
   double distanceTo(int triangle, const Vector3& point) const {
@@ -69,7 +69,7 @@ class MeshSurface {
 
   std::vector<Vector3> vertices_;  // m
   std::vector<Triangle> triangles_;
-  bool closed_;
+  bool closed_, endless_;
   BoxTree tree_;
   std::vector<DiscNode> discs_;
   std::vector<Triangle> neighbours_;             // of closed ones only

@@ -95,7 +95,7 @@ const Distances& MinimumDistance::compute(const ObjectView& object) {
   for (int copy = 0; copy < object.copies; ++copy) {
     if (copy == 0) {
       addFeatures(object);
-    } else if (!obstacles_.empty()) {
+    } else if (nearest_[copy].distance < INFINITY) {
       result_.features.push_back(nearest_[copy]);
     }
     result_.minimum.push_back(nearest_[copy].distance - margin_);
@@ -110,6 +110,9 @@ const Distances& MinimumDistance::compute(const ObjectView& object) {
 
 void MinimumDistance::addFeatures(const ObjectView& object) {
   std::vector<Feature>& features = result_.features;
+  if (!(nearest_[0].distance < INFINITY)) {
+    return;  // there is nothing to keep off
+  }
   const double limit = nearest_[0].distance + band_ + kRounding;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const std::size_t first = features.size();
@@ -118,11 +121,11 @@ void MinimumDistance::addFeatures(const ObjectView& object) {
       features[k].obstacle = static_cast<int>(i);
     }
   }
-  if (features.empty() && !obstacles_.empty()) {  // rounding, far from the origin
+  if (features.empty()) {  // rounding, far from the origin
     features.push_back(nearest_[0]);
   }
   std::sort(features.begin(), features.end(), before);  // a stable sort would allocate
-  nearest_[0].distance = features.empty() ? nearest_[0].distance : features[0].distance;
+  nearest_[0].distance = features[0].distance;
 }
 
 }  // namespace distance

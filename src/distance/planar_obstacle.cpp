@@ -137,16 +137,12 @@ PlanarObstacle::PlanarObstacle(const std::vector<std::vector<std::array<double, 
     checkCrossings(search_->region().boundary(), search_->region().tree(), &problems);
   }
   throwIfAny(problems);
-  setPose(translation, rotation);
+  search_->setPose(translation, rotation, {});
 }
 
 PlanarObstacle::~PlanarObstacle() = default;
 
-void PlanarObstacle::setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
-  std::vector<std::string> problems;
-  checkPose(translation, rotation, &problems);
-  checkTwist(velocity, &problems);
-  throwIfAny(problems);
+void PlanarObstacle::place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
   search_->setPose(translation, rotation, velocity);
 }
 

@@ -25,20 +25,3 @@ inline Quaternion toQuaternion(const std::array<double, 4>& xyzw) {
 }
 
 inline Vector3 toVector(const Numbers3& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
-
-//! The method that moves an obstacle.
-template <typename Class>
-void bindPose(Class* obstacle) {
-  namespace py = pybind11;
-  using Type = typename Class::type;
-  obstacle->def(
-      "set_pose",
-      [](Type& moved, const Numbers3& translation, const std::array<double, 4>& rotation, const Numbers3& linear,
-         const Numbers3& angular) {
-        moved.setPose(toVector(translation), toQuaternion(rotation), Twist{toVector(linear), toVector(angular)});
-      },
-      py::arg("translation"), py::arg("rotation"), py::arg("linear_velocity") = Numbers3{},
-      py::arg("angular_velocity") = Numbers3{},
-      "Moves the obstacle. The velocities [m/s, rad/s] are those of its origin and about it, in the fixed frame.\n"
-      "Raises ValueError with all mistakes at once.");
-}

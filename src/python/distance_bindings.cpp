@@ -17,9 +17,26 @@ using namespace deformable_manipulation::distance;
 
 void bindPlanarObstacle(py::module_& module);
 void bindMeshObstacle(py::module_& module);
+void bindPrimitiveObstacle(py::module_& module);
+void bindCloudObstacle(py::module_& module);
+void bindFieldObstacle(py::module_& module);
 void bindDistances(py::module_& module);
 
 namespace {
+
+void bindObstacle(py::module_& module) {
+  py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.")
+      .def(
+          "set_pose",
+          [](Obstacle& moved, const Numbers3& translation, const std::array<double, 4>& rotation,
+             const Numbers3& linear, const Numbers3& angular) {
+            moved.setPose(toVector(translation), toQuaternion(rotation), Twist{toVector(linear), toVector(angular)});
+          },
+          py::arg("translation"), py::arg("rotation"), py::arg("linear_velocity") = Numbers3{},
+          py::arg("angular_velocity") = Numbers3{},
+          "Moves the obstacle. The velocities [m/s, rad/s] are those of its origin and about it, in the fixed frame.\n"
+          "Raises ValueError with all mistakes at once.");
+}
 
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -50,11 +67,12 @@ NamedDistances compute(NamedMinimumDistance& distance, const Points& points, con
 
 PYBIND11_MODULE(_distance, module) {
   module.doc() = "Signed minimum distances between a deformable object's copies and obstacles (C++ core).";
-  // It is in the module then: the object only adds to it.
-  py::class_<Obstacle, std::shared_ptr<Obstacle>>(  // NOLINT(bugprone-unused-raii)
-      module, "Obstacle", "Something to keep off.");
+  bindObstacle(module);
   bindPlanarObstacle(module);
   bindMeshObstacle(module);
+  bindPrimitiveObstacle(module);
+  bindCloudObstacle(module);
+  bindFieldObstacle(module);
   bindDistances(module);
   py::class_<NamedMinimumDistance, std::shared_ptr<NamedMinimumDistance>>(
       module, "MinimumDistance",

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -45,7 +46,24 @@ void bindMeshObstacle(py::module_& module) {
            }),
            py::arg("vertices"), py::arg("triangles"), py::arg("translation") = Numbers3{},
            py::arg("rotation") = identity);
+  mesh.def_static(
+      "of_cells",
+      [](const py::array& given, double size, bool endless) {
+        const bool whole = given.dtype().kind() == 'i' || given.dtype().kind() == 'u';
+        if (!whole || given.ndim() != 2 || given.shape(1) != 3) {
+          throw py::value_error("cells must be whole numbers of the shape (cells, 3)");
+        }
+        const py::array_t<int, py::array::c_style | py::array::forcecast> cells(given);
+        std::vector<std::array<int, 3>> cubes(static_cast<std::size_t>(cells.shape(0)));
+        for (std::size_t i = 0; i < cubes.size(); ++i) {
+          std::copy_n(cells.data() + 3 * i, 3, cubes[i].begin());
+        }
+        const py::gil_scoped_release others_go_on;
+        return MeshObstacle::ofCells(cubes, size, endless);
+      },
+      py::arg("cells"), py::arg("size"), py::arg("endless") = false,
+      "Cubes as one solid: cells (N, 3) int32, of which (i, j, k) has the corners size * (i, j, k) and\n"
+      "size * (i + 1, j + 1, k + 1) [m]; endless: they are free, and all else is solid.");
   mesh.def_property_readonly("warnings", &MeshObstacle::warnings,
                              "Sentences about what was dropped or turned, and what has no sign.");
-  bindPose(&mesh);
 }

@@ -40,5 +40,4 @@ void bindPlanarObstacle(py::module_& module) {
       "Raises ValueError with all mistakes at once.");
   bindConstructor<std::vector<std::vector<std::array<double, 2>>>>("rings", &polygon);
   bindConstructor<std::vector<std::array<double, 2>>>("points", &polygon);
-  bindPose(&polygon);
 }

@@ -43,6 +43,15 @@ struct ObjectView {
   const std::array<int, 3>* triangles = nullptr;  //!< null: a polyline through the points in their order
   int triangle_count = 0;
 
+  //! Segments, or triangles.
+  int elements() const { return triangles == nullptr ? point_count - 1 : triangle_count; }
+  int cornersOfElement() const { return triangles == nullptr ? 2 : 3; }
+
+  //! Geometry points of an element; those of a segment: start, end, end.
+  std::array<int, 3> element(int index) const {
+    return triangles == nullptr ? std::array<int, 3>{index, index + 1, index + 1} : triangles[index];
+  }
+
   Vector3 point(int copy, int index) const {
     const double* at = points + 3 * (static_cast<long>(copy) * point_count + index);
     return {at[0], at[1], at[2]};

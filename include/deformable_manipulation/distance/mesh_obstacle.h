@@ -37,12 +37,15 @@ class MeshObstacle : public Obstacle {
   MeshObstacle(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 3>>& triangles,
                const Vector3& translation = Vector3::Zero(),
                const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
+  //! The surface of cubes side by side, which is one solid.
+  //! @param cells indices (i, j, k) of cubes, at most 1048574; cube (i, j, k) has the corners size (i, j, k) and
+  //!   size (i + 1, j + 1, k + 1)
+  //! @param size [m] of a cube
+  //! @param endless these cubes are free, and all else is solid
+  //! @throw std::invalid_argument All reasons: there is no cube; a cube is too far away; the size is not positive
+  static std::shared_ptr<MeshObstacle> ofCells(const std::vector<std::array<int, 3>>& cells, double size,
+                                               bool endless = false);
   ~MeshObstacle() override;
-
-  //! Moves the obstacle.
-  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
-  //! @throw std::invalid_argument All reasons
-  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
 
   //! Sentences about what was dropped or turned, and what has no sign.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -52,6 +55,9 @@ class MeshObstacle : public Obstacle {
 
  private:
   class Search;
+  explicit MeshObstacle(std::unique_ptr<Search> search);
+  void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) override;
+
   std::vector<std::string> warnings_;
   std::unique_ptr<Search> search_;
 };

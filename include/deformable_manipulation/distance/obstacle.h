@@ -17,6 +17,12 @@ class Obstacle {
  public:
   virtual ~Obstacle() = default;
 
+  //! Moves the obstacle.
+  //! @param translation [m] and rotation (of length 1): of the obstacle in the fixed frame
+  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
+  //! @throw std::invalid_argument All reasons
+  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
+
   //! The nearest pair of every copy.
   //! @param nearest [copies] filled but for `obstacle`
   virtual void minima(const ObjectView& object, Feature* nearest) = 0;
@@ -24,6 +30,10 @@ class Obstacle {
   //! Appends the nearest point of each segment or triangle of copy 0 whose signed distance is at most `limit` [m], in
   //! any order.
   virtual void features(const ObjectView& object, double limit, std::vector<Feature>* found) = 0;
+
+ private:
+  //! Takes a pose and a velocity that have been checked.
+  virtual void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) = 0;
 };
 
 }  // namespace distance

@@ -39,16 +39,13 @@ class PlanarObstacle : public Obstacle {
                  const pbd::Quaternion& rotation = pbd::Quaternion::Identity());
   ~PlanarObstacle() override;
 
-  //! Moves the obstacle.
-  //! @param velocity of the obstacle's origin [m/s] and about it [rad/s], in the fixed frame
-  //! @throw std::invalid_argument All reasons
-  void setPose(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity = {});
-
   void minima(const ObjectView& object, Feature* nearest) override;
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;
+  void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) override;
+
   std::unique_ptr<Search> search_;
 };
 

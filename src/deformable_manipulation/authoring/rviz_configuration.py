@@ -6,8 +6,6 @@ import math
 import numpy as np
 import yaml
 
-from deformable_manipulation.scenario.spec import MeshObstacle
-
 _WINDOW = (1280, 800)  # pixels
 _FAR = 40.0  # m, from which parallel lines stay parallel
 _CELL = 0.5  # m, of the grid
@@ -126,7 +124,7 @@ def _scene(scenario):
     starts = np.array([agent.start for agent in scenario.agents])
     path = np.array([waypoint.position for waypoint in scenario.leader.waypoints])
     agents = np.concatenate([starts + shift for shift in path])
-    obstacles = [_places_of(each) for each in scenario.obstacles if isinstance(each, MeshObstacle)]
+    obstacles = [_places_of(each) for each in scenario.obstacles if each.is_around_origin]
     places = np.concatenate([agents, agents - (0.0, 0.0, _SAG), *obstacles])
     low, high = places.min(axis=0), places.max(axis=0)
     if any(obstacle.motion is not None for obstacle in scenario.obstacles):

@@ -1,12 +1,6 @@
 """The subject ``distance``: minimum distances of all copies, beside other libraries."""
 
-import itertools
-import os
-import time
-from pathlib import Path
-from typing import Callable, List
-
-import numpy as np
+from typing import List
 
 from deformable_manipulation import _distance
 from deformable_manipulation.benchmarks.distance_cases import ball, fabric, hill, rope
@@ -15,7 +9,8 @@ from deformable_manipulation.benchmarks.distance_rivals import (
     ShapelyPolygon,
     TrimeshVertices,
 )
-from deformable_manipulation.benchmarks.harness import QUICK, measure
+from deformable_manipulation.benchmarks.distance_seen import measure_seen
+from deformable_manipulation.benchmarks.distance_timing import TIMES, built, own_calls, timed
 from deformable_manipulation.benchmarks.subject import Request
 from deformable_manipulation.benchmarks.table import Column, Table
 
@@ -26,12 +21,7 @@ HEIGHTS = {"outside": 1.3, "crossing": 0.8}  # m, of the fabric over the obstacl
 CELLS = (7, 14, 28, 56)
 NUMBERS_OF_COPIES = (1, 4, 13, 28)
 MOST_FOR_TRIMESH = 150_000  # faces: its candidates for a million do not fit into 24 GB
-SLOW = 1.0  # s, of a call: longer ones are measured a few times only
 
-TIMES = (
-    Column("median_us", "median [µs]", ".1f"),
-    Column("minimum_us", "minimum [µs]", ".1f"),
-)
 PLANAR_COLUMNS = (
     (Column("what", "what is called"),)
     + TIMES
@@ -59,7 +49,7 @@ NOTES = (
 
 def measure_tables(request: Request) -> List[Table]:
     """Time this package and the libraries on the same objects and obstacles."""
-    return [_planar(request), *_meshes(request), _growth(request)]
+    return [_planar(request), *_meshes(request), _growth(request), *measure_seen(request)]
 
 
 def _planar(request: Request) -> Table:
@@ -67,10 +57,10 @@ def _planar(request: Request) -> Table:
     table = Table("planar", title, PLANAR_COLUMNS, notes=list(NOTES))
     body = rope(COPIES)
     obstacle = _distance.PlanarObstacle(hill(), "yz")
-    candidates = _own(obstacle, None) + [(ShapelyPolygon.name, ShapelyPolygon(hill()))]
+    candidates = own_calls(obstacle, None) + [(ShapelyPolygon.name, ShapelyPolygon(hill()))]
     for name, call in candidates:
         request.say(f"polygon, {name}")
-        table.rows.append({"what": name, **_timed(call, body, request)})
+        table.rows.append({"what": name, **timed(call, body, request)})
     return table
 
 
@@ -83,18 +73,18 @@ def _meshes(request: Request) -> List[Table]:
         mesh = ball(faces)
         faces = len(mesh[1])
         request.say(f"{faces} faces, build")
-        obstacle, row = _built(mesh)
+        obstacle, row = built(_distance.MeshObstacle, *mesh)
         builds.rows.append({"faces": faces, **row})
         for case, height in HEIGHTS.items():
             body = fabric(COPIES, height=height)
-            candidates = _own(obstacle, body.faces())
-            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.faces())))
+            candidates = own_calls(obstacle, body.triangles)
+            candidates.append((FclMesh.name, FclMesh(mesh[0], mesh[1], body.triangles)))
             if faces <= MOST_FOR_TRIMESH:
                 candidates.append((TrimeshVertices.name, TrimeshVertices(*mesh)))
             for name, call in candidates:
                 request.say(f"{faces} faces, {case}, {name}")
                 labels = {"faces": faces, "case": case, "what": name}
-                times.rows.append({**labels, **_timed(call, body, request)})
+                times.rows.append({**labels, **timed(call, body, request)})
     return [times, builds]
 
 
@@ -110,45 +100,6 @@ def _growth(request: Request) -> Table:
         particles = body.states.shape[2]
         request.say(f"{particles} particles, {copies} copies")
         labels = {"faces": len(mesh[1]), "particles": particles, "copies": copies}
-        call = _own(obstacle, body.faces())[0][1]
-        table.rows.append({**labels, **_timed(call, body, request)})
+        call = own_calls(obstacle, body.triangles)[0][1]
+        table.rows.append({**labels, **timed(call, body, request)})
     return table
-
-
-def _own(obstacle, triangles) -> list:
-    """This package's computations, by name. Without a band copy 0 has hardly any other feature."""
-    found = []
-    for name, band in (("minimum", 0.0), ("features", 0.1)):
-        calculator = _distance.MinimumDistance([obstacle], 0.0, band)
-
-        def call(points, calculator=calculator):
-            return calculator.compute(points, triangles)[0]
-
-        found.append((f"deformable_manipulation, {name}", call))
-    return found
-
-
-def _timed(call: Callable, body, request: Request) -> dict:
-    lowest = float(np.min(call(body.states[0])))
-    started = time.perf_counter()
-    call(body.states[1])
-    slow = time.perf_counter() - started > SLOW
-    following = itertools.cycle(body.states)
-    timing = measure(lambda _: call(next(following)), effort=QUICK if slow else request.effort)
-    return {
-        "median_us": 1e6 * timing.median,
-        "minimum_us": 1e6 * timing.minimum,
-        "distance": lowest,
-    }
-
-
-def _built(mesh):
-    before, started = _resident(), time.perf_counter()
-    obstacle = _distance.MeshObstacle(*mesh)
-    elapsed = time.perf_counter() - started
-    return obstacle, {"build_ms": 1e3 * elapsed, "memory_mb": 1e-6 * (_resident() - before)}
-
-
-def _resident() -> int:
-    """Memory of this process [bytes]."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

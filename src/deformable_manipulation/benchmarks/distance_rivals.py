@@ -67,3 +67,18 @@ class TrimeshVertices:
     def __call__(self, points):
         nearest = self._trimesh.proximity.closest_point(self._mesh, points.reshape(-1, 3))
         return nearest[1].reshape(points.shape[:2]).min(axis=1)
+
+
+class SciPyTree:
+    """SciPy: the object's vertices alone and a cloud of points, all copies in one call."""
+
+    name = "SciPy cKDTree, vertices alone"
+
+    def __init__(self, points):
+        from scipy.spatial import cKDTree
+
+        self._tree = cKDTree(points)
+
+    def __call__(self, points):
+        distances, _ = self._tree.query(points.reshape(-1, 3))
+        return distances.reshape(points.shape[:2]).min(axis=1)

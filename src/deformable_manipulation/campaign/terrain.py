@@ -3,22 +3,41 @@
 import dataclasses
 import math
 from functools import singledispatch
+from typing import TypeVar
 
 import numpy as np
 
-from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
+from deformable_manipulation.scenario.spec import MeshObstacle, ObstacleSpec, PolygonObstacle
 
 _POINTS = 84  # of the surface of random hills
 _WAVES = 6
 _WAVELENGTHS = (0.8, 3.0)  # m
-_SHIFT = 0.2  # m, of a mesh along its level axes
+_SHIFT = 0.2  # m, of an obstacle along the level axes
 _SIZES = (0.7, 1.3)  # of a mesh, in multiples of its own
 
 
+_Spec = TypeVar("_Spec", bound=ObstacleSpec)
+
+
 @singledispatch
-def random_obstacle(obstacle, random: np.random.Generator):
+def random_obstacle(obstacle: ObstacleSpec, random: np.random.Generator) -> ObstacleSpec:
     """An obstacle of the same kind and of about the same size, in about the same place."""
-    raise TypeError(f"no random obstacles can be made from {type(obstacle).__name__}")
+    return _moved(obstacle, random)
+
+
+def _moved(obstacle: _Spec, random: np.random.Generator) -> _Spec:
+    """The obstacle moved along the level axes and turned about the upright one."""
+    shift = np.append(random.uniform(-_SHIFT, _SHIFT, 2), 0.0)
+    half = 0.5 * random.uniform(-math.pi, math.pi)
+    x, y, z, w = obstacle.rotation
+    sine, cosine = math.sin(half), math.cos(half)
+    turned = (
+        cosine * x - sine * y,
+        cosine * y + sine * x,
+        cosine * z + sine * w,
+        cosine * w - sine * z,
+    )
+    return obstacle.at(tuple((np.array(obstacle.translation) + shift).tolist()), turned)
 
 
 @random_obstacle.register
@@ -46,21 +65,8 @@ def _hills(obstacle: PolygonObstacle, random: np.random.Generator) -> PolygonObs
 
 @random_obstacle.register
 def _moved_mesh(obstacle: MeshObstacle, random: np.random.Generator) -> MeshObstacle:
-    """The mesh moved in its plane, turned about the upright axis and changed in size."""
-    shift = np.append(random.uniform(-_SHIFT, _SHIFT, 2), 0.0)
-    half = 0.5 * random.uniform(-math.pi, math.pi)
-    x, y, z, w = obstacle.rotation
-    sine, cosine = math.sin(half), math.cos(half)
-    turned = (
-        cosine * x - sine * y,
-        cosine * y + sine * x,
-        cosine * z + sine * w,
-        cosine * w - sine * z,
-    )
+    """The mesh moved and turned as any obstacle, and changed in size."""
+    moved = _moved(obstacle, random)
     size = random.uniform(*_SIZES)
-    return dataclasses.replace(
-        obstacle,
-        translation=tuple((np.array(obstacle.translation) + shift).tolist()),
-        rotation=turned,
-        scale=(size * obstacle.scale[0], size * obstacle.scale[1], size * obstacle.scale[2]),
-    )
+    scale = (size * obstacle.scale[0], size * obstacle.scale[1], size * obstacle.scale[2])
+    return dataclasses.replace(moved, scale=scale)

@@ -19,7 +19,6 @@ from deformable_manipulation.scenario.loader import load_scenario
 from deformable_manipulation.scenario.mapping import scenario_to_yaml
 from deformable_manipulation.scenario.spec import (
     PathMotion,
-    PolygonObstacle,
     Scenario,
     TopicMotion,
 )
@@ -96,15 +95,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def describe_obstacle(spec) -> str:
     """What kind of obstacle it is, in a few words."""
-    if isinstance(spec, PolygonObstacle):
-        shape = "polygon of {} points{}, plane {}".format(
-            sum(map(len, spec.rings)),
-            " in {} rings".format(len(spec.rings)) if len(spec.rings) > 1 else "",
-            spec.plane,
-        )
-    else:
-        scale = " x ".join("{:g}".format(s) for s in spec.scale)
-        shape = "mesh {}, scale {}".format(spec.mesh, scale)
+    shape = spec.description()
     return shape if spec.motion is None else "{}, {}".format(shape, describe_motion(spec.motion))
 
 

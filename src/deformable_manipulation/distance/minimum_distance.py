@@ -5,16 +5,10 @@ import math
 import numpy as np
 
 from deformable_manipulation import _distance
-from deformable_manipulation.geometry.mesh_files import scaled_mended_mesh
-from deformable_manipulation.geometry.planes import PLANE_AXES
-from deformable_manipulation.geometry.polygons import check_rings
-from deformable_manipulation.scenario.spec import MeshObstacle
-
-_UNIT_TOLERANCE = 1e-6
 
 
 class MinimumDistance:
-    """Signed distances of a polyline or a surface with a margin to polygons and meshes.
+    """Signed distances of a polyline or a surface with a margin to obstacles.
 
     The distance of an object is the least signed distance of all its points, those within segments
     and triangles included, minus the margin. A point's signed distance to an obstacle is its
@@ -33,7 +27,7 @@ class MinimumDistance:
     One instance must not be used by several threads at a time: it remembers what was nearest.
 
     Args:
-        obstacles: sequence of scenario.spec.PolygonObstacle and MeshObstacle.
+        obstacles: sequence of obstacles.spec.ObstacleSpec.
         margin: radius or half thickness of the object, subtracted from all distances [m], >= 0.
         band: [m], >= 0.
         triangles: (T, 3) indices of the object's points, T >= 1; None: a polyline through them.
@@ -46,9 +40,10 @@ class MinimumDistance:
         problems = setting_problems(obstacles, margin, band, triangles)
         native, warnings = [], []
         for spec in obstacles:
-            if not pose_problems(spec):
+            if not any(spec.problems()):
                 try:
-                    obstacle, found = _native_obstacle(spec)
+                    obstacle, found = spec.native()
+                    obstacle.set_pose(spec.translation, spec.rotation)
                     native.append(obstacle)
                     warnings += named(spec, found)
                 except ValueError as error:
@@ -122,7 +117,7 @@ def setting_problems(obstacles, margin, band, triangles):
                 "polyline"
             )
     for spec in obstacles:
-        problems += named(spec, pose_problems(spec))
+        problems += named(spec, spec.problems())
     return problems
 
 
@@ -131,47 +126,5 @@ def named(spec, faults):
     return ["obstacle {!r}: {}".format(spec.name, fault) for fault in faults]
 
 
-def pose_problems(spec):
-    """What is wrong with plane, scale, translation and rotation of an obstacle."""
-    problems = []
-    if isinstance(spec, MeshObstacle):
-        if not _are_numbers(spec.scale, 3) or not all(spec.scale):
-            problems.append(
-                "scale is {}; it must be three finite numbers other than 0".format(spec.scale)
-            )
-    elif spec.plane not in PLANE_AXES:
-        problems.append("plane is {!r}; allowed: {}".format(spec.plane, _quoted(PLANE_AXES)))
-    if not _are_numbers(spec.translation, 3):
-        problems.append(
-            "translation is {}; it must be three finite numbers of metres".format(spec.translation)
-        )
-    if (
-        not _are_numbers(spec.rotation, 4)
-        or abs(math.sqrt(sum(q * q for q in spec.rotation)) - 1.0) > _UNIT_TOLERANCE
-    ):
-        problems.append(
-            "rotation is {}; it must be a quaternion x, y, z, w of length 1".format(spec.rotation)
-        )
-    return problems
-
-
-def _native_obstacle(spec):
-    """The C++ core's obstacle, and warnings. Raises ValueError if its shape is invalid."""
-    if isinstance(spec, MeshObstacle):
-        mesh = scaled_mended_mesh(spec)
-        obstacle = _distance.MeshObstacle(*mesh[:2], spec.translation, spec.rotation)
-        return obstacle, [*mesh.warnings(), *obstacle.warnings]
-    rings = check_rings(spec.points)
-    return _distance.PlanarObstacle(rings, spec.plane, spec.translation, spec.rotation), []
-
-
-def _are_numbers(values, count):
-    return len(values) == count and all(map(_is_number, values))
-
-
 def _is_number(value):
     return isinstance(value, (int, float, np.number)) and math.isfinite(value)
-
-
-def _quoted(names):
-    return ", ".join("'{}'".format(name) for name in names)

@@ -8,7 +8,6 @@ from deformable_manipulation.distance.features import Distances
 from deformable_manipulation.distance.minimum_distance import (
     checked_points,
     named,
-    pose_problems,
     setting_problems,
 )
 from deformable_manipulation.distance.reference_shapes import reference_shape
@@ -58,7 +57,7 @@ class ReferenceMinimumDistance:
         spec = dataclasses.replace(
             self._obstacles[index], translation=pose.translation, rotation=pose.rotation
         )
-        problems = pose_problems(spec)
+        problems = list(spec.problems())
         if problems:
             raise ValueError("\n".join(named(spec, problems)))
         self._obstacles[index] = spec

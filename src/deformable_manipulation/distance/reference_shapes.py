@@ -7,15 +7,21 @@ from deformable_manipulation.geometry.planes import PlaneFrame
 from deformable_manipulation.geometry.polygons import check_rings
 from deformable_manipulation.geometry.regions import oriented_rings, polygon_region
 from deformable_manipulation.geometry.rotation import rotate
-from deformable_manipulation.scenario.spec import MeshObstacle
 
 _TOUCHING = 1e-9  # m
 
 
 def reference_shape(spec):
-    """The shape of an obstacle's specification. Raises ValueError if it is invalid."""
+    """The shape of an obstacle's specification.
+
+    Raises:
+        ValueError: it is invalid, or of a kind that the libraries do not know.
+    """
+    if spec.kind not in _SHAPES:
+        known = " and ".join(_SHAPES)
+        raise ValueError("backend 'reference' has no {}, only {}".format(spec.kind, known))
     try:
-        return MeshShape(spec) if isinstance(spec, MeshObstacle) else PolygonShape(spec)
+        return _SHAPES[spec.kind](spec)
     except ImportError as error:
         raise ValueError(
             "backend 'reference' needs the Python packages trimesh, rtree and python-fcl "
@@ -130,3 +136,6 @@ class PolygonShape:
         edge = int(np.argmin(self._shapely.distance(edges, self._shapely.Point(flat))))
         along = sides[edge, 1] - sides[edge, 0]
         return self._frame.lift(np.array([along[1], -along[0]]) / np.linalg.norm(along))
+
+
+_SHAPES = {"mesh": MeshShape, "polygon": PolygonShape}

@@ -41,11 +41,7 @@ def read(data: bytes) -> RawMesh:
     Raises:
         FormatError: with the line of the header, or the element.
     """
-    elements, order, begin = _header(data)
-    values = BinaryValues(data, begin, order) if order else TextValues(data, begin)
-    found: Dict[str, Any] = {}
-    for element in elements:
-        found[element.name] = _read_element(values, element)
+    found = _read_elements(data)
     vertices = _vertices(found.get("vertex", {}))
     triangles = []
     if "face" in found:
@@ -59,6 +55,18 @@ def read(data: bytes) -> RawMesh:
     if not triangles:
         raise FormatError("there are no triangles in it: it has vertices and no faces")
     return RawMesh(vertices, np.concatenate(triangles))
+
+
+def read_points(data: bytes) -> np.ndarray:
+    """The vertices (N, 3) alone. Raises FormatError as :func:`read` does."""
+    return _vertices(_read_elements(data).get("vertex", {}))
+
+
+def _read_elements(data: bytes) -> Dict[str, Any]:
+    """The properties of each element by name."""
+    elements, order, begin = _header(data)
+    values = BinaryValues(data, begin, order) if order else TextValues(data, begin)
+    return {element.name: _read_element(values, element) for element in elements}
 
 
 def _header(data: bytes) -> Tuple[List[_Element], str, int]:

@@ -1,6 +1,5 @@
 """Where moving obstacles are, and how they move."""
 
-import dataclasses
 from typing import List, NamedTuple
 
 import numpy as np
@@ -151,7 +150,7 @@ def placed_obstacles(scenario, poses):
     """The obstacles of a scenario with the moving ones at poses (K, 7)."""
     obstacles = list(scenario.obstacles)
     for index, pose in zip(moving_obstacles(scenario), np.asarray(poses, dtype=float).tolist()):
-        obstacles[index] = _placed(obstacles[index], pose[:3], pose[3:])
+        obstacles[index] = obstacles[index].at(tuple(pose[:3]), tuple(pose[3:]))
     return tuple(obstacles)
 
 
@@ -161,8 +160,4 @@ def obstacle_places(obstacle, count):
         return [obstacle]
     path, waypoints = ObstaclePath(obstacle), obstacle.motion.waypoints
     times = np.linspace(waypoints[0].time, waypoints[-1].time, count)
-    return [_placed(obstacle, *path.at(time)[:2]) for time in times.tolist()]
-
-
-def _placed(obstacle, translation, rotation):
-    return dataclasses.replace(obstacle, translation=tuple(translation), rotation=tuple(rotation))
+    return [obstacle.at(*path.at(time)[:2]) for time in times.tolist()]

@@ -5,8 +5,7 @@ import math
 
 import numpy as np
 
-from deformable_manipulation.distance.corners import obstacle_corners
-from deformable_manipulation.scenario.spec import PolygonObstacle
+from deformable_manipulation.obstacles.spec import obstacle_corners
 from deformable_manipulation.simulation.factory import make_simulation
 
 _NEAR = 0.6  # m, obstacles are of interest so far from where the object and the agents come
@@ -46,7 +45,7 @@ def planned_bounds(scenario):
 
 def plane_of(scenario):
     """The plane of the first planar obstacle, such as ``yz``; None: there is none."""
-    planes = [o.plane for o in scenario.obstacles if isinstance(o, PolygonObstacle)]
+    planes = [obstacle.plane for obstacle in scenario.obstacles if obstacle.plane]
     return planes[0] if planes else None
 
 

@@ -1,6 +1,5 @@
 """Overlaid snapshots of a run, seen along one axis: the paper's figures of the scenarios."""
 
-from functools import singledispatchmethod
 from typing import Optional, Sequence, Tuple
 
 import numpy as np
@@ -10,13 +9,11 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from deformable_manipulation.geometry.mesh_files import scaled_mesh
-from deformable_manipulation.geometry.planes import PlaneFrame
-from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.obstacles.drawings import Dots
+from deformable_manipulation.obstacles.spec import placed
 from deformable_manipulation.plots.style import colour_of
 from deformable_manipulation.recording.frames import Frames
 from deformable_manipulation.recording.timeseries import AXES
-from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle
 
 GROUND, GROUND_EDGE = "#D9D9D9", "#808080"
 _PALENESS = 0.35  # of moving obstacles, beside the object's colour
@@ -28,7 +25,7 @@ def widest_plane(frames: Frames) -> Tuple[int, int]:
 
     Up is z unless nothing moves or reaches along it; across is the wider one of the others.
     """
-    planes = [o.plane for o in frames.scenario.obstacles if isinstance(o, PolygonObstacle)]
+    planes = [obstacle.plane for obstacle in frames.scenario.obstacles if obstacle.plane]
     if planes:
         return AXES.index(planes[0][0]), AXES.index(planes[0][1])
     ways = np.ptp(frames.agents, axis=0).max(axis=0)
@@ -116,25 +113,27 @@ class SnapshotPlot:
                     "", here, place, arrowprops={"arrowstyle": "->", "color": colour}, zorder=5
                 )
 
-    @singledispatchmethod
     def _draw_obstacle(self, obstacle, colour) -> None:
-        raise TypeError(f"no drawing for obstacles of {type(obstacle).__name__}")
+        if obstacle.plane:
+            self._draw_region(obstacle, colour)
+            return
+        drawing = obstacle.drawing()
+        if isinstance(drawing, Dots):
+            places = placed(obstacle, drawing.places)[:, self._plane]
+            self._axes.plot(*places.T, ",", color=colour, rasterized=True)
+            return
+        corners = placed(obstacle, drawing.triangles)[..., self._plane]
+        self._axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor="none"))
 
-    @_draw_obstacle.register
-    def _(self, obstacle: PolygonObstacle, colour) -> None:
-        frame = PlaneFrame(obstacle.plane, obstacle.rotation)
+    def _draw_region(self, obstacle, colour) -> None:
+        """A polygon itself, rather than the piece of it that is drawn in space."""
         codes, corners = [], []
         for ring in obstacle.rings:
-            placed = frame.lift(np.array(ring)) + np.array(obstacle.translation)
-            corners += [placed[:, self._plane], placed[:1, self._plane]]
+            points = placed(obstacle, obstacle.embedded(np.array(ring)))[:, self._plane]
+            corners += [points, points[:1]]
             codes += [Path.MOVETO, *[Path.LINETO] * (len(ring) - 1), Path.CLOSEPOLY]
         path = Path(np.concatenate(corners), codes)
         self._axes.add_patch(PathPatch(path, facecolor=colour, edgecolor=GROUND_EDGE))
-
-    @_draw_obstacle.register
-    def _(self, obstacle: MeshObstacle, colour) -> None:
-        corners = placed_mesh(obstacle)[..., self._plane]
-        self._axes.add_collection(PolyCollection(corners, facecolor=colour, edgecolor="none"))
 
     def _limits(self, times: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
         """Lower and upper limits (2,) [m] of the view."""
@@ -156,11 +155,3 @@ def boundary_edges(faces: np.ndarray) -> np.ndarray:
     edges = np.sort(np.concatenate((faces[:, :2], faces[:, 1:], faces[:, ::2])), axis=1)
     unique, counts = np.unique(edges, axis=0, return_counts=True)
     return unique[counts == 1]
-
-
-def placed_mesh(obstacle: MeshObstacle) -> np.ndarray:
-    """Corners (T, 3, 3) [m] of the triangles of a mesh, in the fixed frame."""
-    vertices, triangles = scaled_mesh(obstacle)
-    columns = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
-    placed = vertices @ columns + np.array(obstacle.translation)
-    return placed[triangles]

@@ -1,24 +1,22 @@
 """Obstacles and nearest features for RViz."""
 
-import dataclasses
 from pathlib import Path
 
 import numpy as np
-import shapely
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from deformable_manipulation.geometry.lengths import millimetres
-from deformable_manipulation.geometry.mesh_files import scaled_mesh
-from deformable_manipulation.geometry.planes import PlaneFrame
-from deformable_manipulation.geometry.regions import oriented_polygons, oriented_rings
 from deformable_manipulation.geometry.rotation import rotate
-from deformable_manipulation.scenario.spec import MeshObstacle
+from deformable_manipulation.obstacles.drawings import Dots
+from deformable_manipulation.obstacles.mesh import MeshObstacle
+from deformable_manipulation.obstacles.spec import placed
 
 # A mesh of more triangles is read from its file by RViz itself, if it knows the format: to send it
 # again and again for viewers that come late would hold up the distances.
 _MOST_TRIANGLES = 1000
+_MOST_DOTS = 50000  # balls or cubes, for the same reason
 _FORMATS_OF_RVIZ = (".stl", ".dae", ".obj", ".ply")
 
 # Namespaces of markers.
@@ -44,14 +42,14 @@ def obstacle_frame(obstacle, tf_prefix=""):
     return f"{tf_prefix}obstacle_{obstacle.name}"
 
 
-def obstacle_markers(obstacles, frame, half_width=0.25, tf_prefix=""):
-    """Meshes, and the piece of each planar obstacle within ``half_width`` [m] of its plane.
+def obstacle_markers(obstacles, frame, tf_prefix=""):
+    """A marker for each obstacle.
 
     Those that move are drawn in a frame of their own (:func:`obstacle_frame`), which RViz follows
     without another marker.
 
     Raises:
-        distance.mesh_files.MeshError: a mesh file cannot be read.
+        ValueError: an obstacle's file cannot be read.
     """
     markers = []
     for index, obstacle in enumerate(obstacles):
@@ -60,15 +58,28 @@ def obstacle_markers(obstacles, frame, half_width=0.25, tf_prefix=""):
             marker.ns = MOVING_OBSTACLES
             marker.header.frame_id = obstacle_frame(obstacle, tf_prefix)
             marker.frame_locked = True
-            obstacle = dataclasses.replace(
-                obstacle, translation=(0.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0)
-            )
-        if isinstance(obstacle, MeshObstacle):
-            _draw_mesh(marker, obstacle)
-        else:
-            _draw_surface(marker, _prism(obstacle, half_width))
+            obstacle = obstacle.at((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+        _draw(marker, obstacle)
         markers.append(marker)
     return MarkerArray(markers)
+
+
+def _draw(marker, obstacle):
+    drawing = obstacle.drawing()
+    if isinstance(drawing, Dots):
+        _draw_dots(marker, placed(obstacle, drawing.places), drawing)
+    elif len(drawing.triangles) > _MOST_TRIANGLES and _is_read_by_rviz(obstacle):
+        _name_file(marker, obstacle)
+    else:
+        _draw_surface(marker, placed(obstacle, drawing.triangles).reshape(-1, 3))
+
+
+def _draw_dots(marker, places, dots):
+    """Balls or cubes; of very many, some."""
+    marker.type = Marker.CUBE_LIST if dots.are_cubes else Marker.SPHERE_LIST
+    marker.scale.x = marker.scale.y = marker.scale.z = dots.size
+    marker.color = ColorRGBA(*_GROUND, 1.0)
+    marker.points = [Point(*place) for place in places[:: 1 + len(places) // _MOST_DOTS]]
 
 
 def _draw_surface(marker, corners):
@@ -79,20 +90,22 @@ def _draw_surface(marker, corners):
     marker.colors = [ColorRGBA(*color, 1.0) for color in _lit(corners) for _ in range(3)]
 
 
-def _draw_mesh(marker, obstacle):
-    vertices, triangles = scaled_mesh(obstacle)
-    file = Path(obstacle.mesh)
+def _is_read_by_rviz(obstacle):
+    """Whether RViz itself can read the obstacle from its file."""
+    return (
+        isinstance(obstacle, MeshObstacle)
+        and Path(obstacle.mesh).suffix.lower() in _FORMATS_OF_RVIZ
+    )
+
+
+def _name_file(marker, obstacle):
     turn = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])
-    if len(triangles) > _MOST_TRIANGLES and file.suffix.lower() in _FORMATS_OF_RVIZ:
-        origin = np.multiply(obstacle.scale, obstacle.origin) @ turn
-        marker.type = Marker.MESH_RESOURCE
-        marker.mesh_resource = file.as_uri()
-        marker.color = ColorRGBA(*_GROUND, 1.0)
-        marker.pose = Pose(Point(*(obstacle.translation - origin)), Quaternion(*obstacle.rotation))
-        marker.scale = Vector3(*obstacle.scale)
-        return
-    placed = vertices @ turn + obstacle.translation
-    _draw_surface(marker, placed[triangles].reshape(-1, 3))
+    origin = np.multiply(obstacle.scale, obstacle.origin) @ turn
+    marker.type = Marker.MESH_RESOURCE
+    marker.mesh_resource = Path(obstacle.mesh).as_uri()
+    marker.color = ColorRGBA(*_GROUND, 1.0)
+    marker.pose = Pose(Point(*(obstacle.translation - origin)), Quaternion(*obstacle.rotation))
+    marker.scale = Vector3(*obstacle.scale)
 
 
 def _lit(corners):
@@ -102,32 +115,6 @@ def _lit(corners):
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     brightness = _AMBIENT + (1.0 - _AMBIENT) * np.maximum(normals @ _TO_LIGHT, 0.0)
     return brightness[:, None] * _GROUND
-
-
-def _prism(obstacle, half_width):
-    """Corners (3 T, 3) [m] of the triangles of an obstacle's piece, facing outwards."""
-    plane = PlaneFrame(obstacle.plane, obstacle.rotation)
-    caps = np.concatenate([_triangles(part) for part in oriented_polygons(obstacle.rings)])
-    u, v = plane.lift(np.eye(2))
-    across = half_width * np.cross(u, v)
-
-    def lifted(corners):
-        return plane.lift(corners) + np.array(obstacle.translation)
-
-    surface = [lifted(caps[::-1]) - across, lifted(caps) + across]
-    for ring in oriented_rings(obstacle.rings):
-        near, far = lifted(ring) - across, lifted(ring) + across
-        next_near, next_far = np.roll(near, -1, axis=0), np.roll(far, -1, axis=0)
-        sides = (near, next_near, far, far, next_near, next_far)
-        surface.append(np.stack(sides, axis=1).reshape(-1, 3))
-    return np.concatenate(surface)
-
-
-def _triangles(polygon):
-    """Corners (3 T, 2) of triangles that make up a polygon, counterclockwise."""
-    triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))
-    counterclockwise = [shapely.geometry.polygon.orient(triangle) for triangle in triangles]
-    return np.concatenate([shapely.get_coordinates(each)[:3] for each in counterclockwise])
 
 
 def distance_markers(distances, header, scenario):

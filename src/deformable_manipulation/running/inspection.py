@@ -7,10 +7,10 @@ from typing import Iterator, Tuple
 import numpy as np
 
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.corners import obstacle_corners
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
-from deformable_manipulation.scenario.spec import PolygonObstacle, Scenario
+from deformable_manipulation.obstacles.spec import obstacle_corners
+from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 
@@ -47,7 +47,8 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     for obstacle in scenario.obstacles:
         corners = obstacle_corners(obstacle)
         facts.append(_extent_of(obstacle, corners))
-        warnings += _unlikely_size(obstacle, corners, size)
+        if not obstacle.endless:
+            warnings += _unlikely_size(obstacle, corners, size)
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
     facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
@@ -69,7 +70,7 @@ def _place(point: np.ndarray) -> str:
 
 def _extent_of(obstacle, corners: np.ndarray) -> str:
     low, high = _bounds(corners)
-    endless = ", endless across its plane" if isinstance(obstacle, PolygonObstacle) else ""
+    endless = obstacle.endless and ", " + obstacle.endless
     return "obstacle {} reaches from {} to {} m{}".format(obstacle.name, low, high, endless)
 
 

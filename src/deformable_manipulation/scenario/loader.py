@@ -4,6 +4,7 @@ import dataclasses
 from pathlib import Path
 from typing import Any, Dict, Iterable, Mapping, Union
 
+from deformable_manipulation.obstacles.motions import check_frames
 from deformable_manipulation.reading.document import read_document
 from deformable_manipulation.reading.errors import ScenarioError
 from deformable_manipulation.reading.overrides import Override, apply_overrides
@@ -18,7 +19,6 @@ from deformable_manipulation.scenario.agents import read_agents
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
 from deformable_manipulation.scenario.knowledge import check_delay
-from deformable_manipulation.scenario.motions import check_frames
 from deformable_manipulation.scenario.spec import Scenario
 
 SCENARIO = Section(Scenario, defaults={"obstacles": ()})

@@ -5,7 +5,7 @@ from typing import Any, Dict
 import yaml
 
 from deformable_manipulation.reading.plain import plain
-from deformable_manipulation.scenario.spec import AgentSpec, PolygonObstacle, Scenario
+from deformable_manipulation.scenario.spec import AgentSpec, Scenario
 
 
 def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
@@ -21,7 +21,7 @@ def scenario_to_mapping(scenario: Scenario) -> Dict[str, Any]:
     mapping["agents"] = {agent.name: _agent(agent) for agent in scenario.agents}
     if not scenario.object.has_joints:
         del mapping["simulation"]["solver"]
-    mapping["obstacles"] = [_obstacle(obstacle) for obstacle in scenario.obstacles]
+    mapping["obstacles"] = [obstacle.to_mapping() for obstacle in scenario.obstacles]
     return mapping
 
 
@@ -38,13 +38,4 @@ def scenario_to_yaml(scenario: Scenario) -> str:
 def _agent(agent: AgentSpec) -> Dict[str, Any]:
     mapping = plain(agent)
     del mapping["name"]
-    return mapping
-
-
-def _obstacle(obstacle) -> Dict[str, Any]:
-    mapping = plain(obstacle)
-    if obstacle.motion is None:
-        del mapping["motion"]
-    if isinstance(obstacle, PolygonObstacle):
-        mapping = {"name": mapping.pop("name"), "polygon": mapping.pop("points"), **mapping}
     return mapping

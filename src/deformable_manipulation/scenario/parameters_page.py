@@ -6,9 +6,12 @@ by hand. The barriers' sections stand in one place, headings and all.
 
 import re
 import sys
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, Sequence, Tuple
 
 from deformable_manipulation.objects.kinds import KINDS
+from deformable_manipulation.obstacles.kinds import COMMON_KEYS
+from deformable_manipulation.obstacles.kinds import KINDS as OBSTACLE_KINDS
+from deformable_manipulation.obstacles.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.reading.parameter import Parameter
 from deformable_manipulation.reading.pose import POSE
 from deformable_manipulation.reading.readers import Items, Section
@@ -18,8 +21,6 @@ from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HORIZON
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
-from deformable_manipulation.scenario.motions import MOTION, POSE_WAYPOINT
-from deformable_manipulation.scenario.obstacles import MESH_OBSTACLE, POLYGON_OBSTACLE
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
 from deformable_manipulation.system.package_files import package_share_directory
@@ -41,6 +42,22 @@ _TABLE = re.compile(
 )
 
 
+class _Excerpt:
+    """Some keys of a section, where the others stand elsewhere."""
+
+    def __init__(self, section: Section, keys: Iterable[str]):
+        self.spec, self.others, self.spec_default = section.spec, {}, section.spec_default
+        self.declarations = {key: each for key, each in section.declarations.items() if key in keys}
+
+
+def _own_section(kind: str) -> Any:
+    """The keys that a kind of obstacle has for itself: those of its section, if that is all."""
+    section = OBSTACLE_KINDS[kind].section
+    own = [key for key in section.fields if key not in COMMON_KEYS]
+    below = section.fields[kind]
+    return below if own == [kind] and isinstance(below, Section) else _Excerpt(section, own)
+
+
 def sections() -> Dict[str, Any]:
     """Every section with a heading of its own, by that heading."""
     return {
@@ -48,8 +65,8 @@ def sections() -> Dict[str, Any]:
         **{"object: " + name: kind.section for name, kind in KINDS.items()},
         "object.pose": POSE,
         "agents": AGENT,
-        "obstacles: polygon": POLYGON_OBSTACLE,
-        "obstacles: mesh": MESH_OBSTACLE,
+        "obstacles": _Excerpt(OBSTACLE_KINDS["polygon"].section, COMMON_KEYS),
+        **{"obstacles: " + name: _own_section(name) for name in OBSTACLE_KINDS},
         "obstacles: motion": MOTION,
         "obstacles: motion.waypoints": POSE_WAYPOINT,
         "leader": LEADER_PATH,

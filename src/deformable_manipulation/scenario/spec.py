@@ -14,6 +14,27 @@ from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.objects.kinds import read_object
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.objects.spec import ObjectSpec
+from deformable_manipulation.obstacles.cloud import CloudObstacle
+from deformable_manipulation.obstacles.field import FieldObstacle
+from deformable_manipulation.obstacles.kinds import read_obstacles
+from deformable_manipulation.obstacles.mesh import MeshObstacle
+from deformable_manipulation.obstacles.motions import (
+    FrameMotion,
+    Motion,
+    PathMotion,
+    PoseWaypoint,
+    TopicMotion,
+)
+from deformable_manipulation.obstacles.polygon import PolygonObstacle
+from deformable_manipulation.obstacles.primitives import (
+    BoxObstacle,
+    CapsuleObstacle,
+    CylinderObstacle,
+    HalfSpaceObstacle,
+    SphereObstacle,
+)
+from deformable_manipulation.obstacles.spec import ObstacleSpec
+from deformable_manipulation.obstacles.voxels import VoxelObstacle
 from deformable_manipulation.reading.names import FRAME, ONE_LINE
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.pose import Pose
@@ -31,19 +52,6 @@ from deformable_manipulation.scenario.controller import (
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HorizonSpec
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, KnowledgeSpec
-from deformable_manipulation.scenario.motions import (
-    FrameMotion,
-    Motion,
-    PathMotion,
-    PoseWaypoint,
-    TopicMotion,
-)
-from deformable_manipulation.scenario.obstacles import (
-    MeshObstacle,
-    Obstacle,
-    PolygonObstacle,
-    read_obstacles,
-)
 from deformable_manipulation.scenario.simulation import SIMULATION, SimulationSpec
 from deformable_manipulation.scenario.waypoints import (
     LEADER_PATH,
@@ -59,15 +67,22 @@ __all__ = [
     "DECENTRALISED",
     "LEADER",
     "AgentSpec",
+    "BoxObstacle",
+    "CapsuleObstacle",
+    "CloudObstacle",
     "CollisionSpec",
     "ControllerSpec",
+    "CylinderObstacle",
     "FabricSpec",
+    "FieldObstacle",
     "HorizonSpec",
     "FrameMotion",
+    "HalfSpaceObstacle",
     "KnowledgeSpec",
     "LeaderSpec",
     "MeshObstacle",
     "Motion",
+    "ObstacleSpec",
     "OverstretchSpec",
     "PathMotion",
     "PolygonObstacle",
@@ -78,8 +93,10 @@ __all__ = [
     "RodSpec",
     "Scenario",
     "SimulationSpec",
+    "SphereObstacle",
     "TopicMotion",
     "Vector",
+    "VoxelObstacle",
     "Waypoint",
     "WorkspaceSpec",
 ]
@@ -105,7 +122,7 @@ class Scenario:
         ),
         "Who carries it; exactly one leader.",
     )
-    obstacles: Tuple[Obstacle, ...] = parameter(
+    obstacles: Tuple[ObstacleSpec, ...] = parameter(
         Custom(read_obstacles, "a list of obstacles", "list"),
         "What it must not touch.",
         default_text="none",

@@ -8,9 +8,8 @@ from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import Node, Number, Section, position, read_items
+from deformable_manipulation.reading.times import SHORTEST_PIECE, TIME, check_times
 
-TIME = Number("s", at_least=0.0, at_most=1e6)
-_SHORTEST_PIECE = 1e-3  # s; what is shorter is a leap, and its velocity no number in the end
 _LARGEST_SPEED = 5.0  # m/s, mean between waypoints: twice that is refused as a command
 
 
@@ -60,24 +59,11 @@ def _check_first(node: Node, first: Waypoint) -> None:
         )
 
 
-def check_times(node: Node, waypoints) -> None:
-    """Each waypoint comes after the one before."""
-    for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
-        if waypoint.time - before.time < _SHORTEST_PIECE:
-            node.report.add(
-                node.path + (str(index), "time"),
-                "must be at least {:g} s later than the waypoint before ({:g} s)".format(
-                    _SHORTEST_PIECE, before.time
-                ),
-                show(waypoint.time),
-            )
-
-
 def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
     for index, (before, waypoint) in enumerate(zip(waypoints, waypoints[1:]), start=1):
         duration = waypoint.time - before.time
         farthest = _LARGEST_SPEED * duration
-        if duration < _SHORTEST_PIECE:
+        if duration < SHORTEST_PIECE:
             continue  # reported
         if math.dist(waypoint.position, before.position) > farthest:
             node.report.add(

@@ -7,6 +7,7 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
 from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.obstacles.primitives import Sphere, SphereObstacle
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
 from deformable_manipulation.scenario import load_scenario, package_share_directory
 from deformable_manipulation.scenario.spec import MeshObstacle, PolygonObstacle, TopicMotion
@@ -144,3 +145,11 @@ def test_what_is_no_longer_there_is_deleted(scenario):
     distances = make_minimum_distance(scenario).compute(straight_ropes([0.6]))
     _, _, copies = distance_markers(distances, Header(), scenario).markers
     assert copies.action == Marker.DELETE
+
+
+def test_primitives_are_drawn_where_they_are():
+    ball = SphereObstacle("ball", Sphere(0.5), translation=(1.0, 2.0, 3.0))
+    (marker,) = obstacle_markers([ball], "map").markers
+    corners = np.array([(p.x, p.y, p.z) for p in marker.points])
+    away = np.linalg.norm(corners - ball.translation, axis=1)
+    assert marker.type == Marker.TRIANGLE_LIST and away == pytest.approx(0.5)

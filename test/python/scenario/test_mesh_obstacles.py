@@ -69,8 +69,8 @@ def test_all_mistakes_at_once(cube, change, problems_of):
 def test_an_obstacle_without_a_shape(mapping, problems_of):
     mapping["obstacles"] = [{"name": "nothing"}]
     found = problems_of(mapping)
-    assert list(found) == ["obstacles.0.polygon"]
-    assert "or give mesh instead, the name of a mesh file (OBJ" in found["obstacles.0.polygon"]
+    assert list(found) == ["obstacles.0"]
+    assert "has no shape; give one of the keys polygon, mesh, half_space" in found["obstacles.0"]
 
 
 def test_all_mistakes_of_an_obstacle_with_two_shapes(cube, change, problems_of):

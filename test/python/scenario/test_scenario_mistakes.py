@@ -38,7 +38,7 @@ WRONG_VALUES = [
     ("agents.hand.hold", "clamp", "did you mean 'clamped'?"),
     ("agents.hand.start", [0, 0], "[x, y, z]"),
     ("obstacles", {"name": "x"}, "a list of obstacles"),
-    ("obstacles.0", 3, "a section with keys name, polygon"),
+    ("obstacles.0", 3, "a section with a name, one of the keys polygon"),
     ("obstacles.0.polygon", 3, "CSV or GeoJSON file"),
     ("obstacles.0.polygon", "absent.csv", "cannot be read"),
     ("obstacles.0.polygon", [[0, 0], [1, 1]], "3 distinct points"),

@@ -25,9 +25,15 @@ TOLERANCE = 0.03  # of gradients of up to 1
 
 @pytest.fixture(scope="module")
 def scenario():
-    return load_scenario(
-        NAME, [("leader.waypoints", json.dumps(WAYPOINTS)), ("simulation.duration", "20")]
-    )
+    """A run on which no fold snaps: with the shares and margins of ropes."""
+    settings = {
+        "leader.waypoints": json.dumps(WAYPOINTS),
+        "simulation.duration": "20",
+        "controller.cooperation": "decentralised",
+        "controller.collision.margin": "0.002",
+        "controller.collision.speed_margin": "0",
+    }
+    return load_scenario(NAME, list(settings.items()))
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from deformable_manipulation.reading.readers import (
     position,
     read_items,
 )
-from deformable_manipulation.scenario.waypoints import TIME, check_times
+from deformable_manipulation.reading.times import TIME, check_times
 
 
 @dataclass(frozen=True)

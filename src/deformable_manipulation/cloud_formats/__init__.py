@@ -1,0 +1,1 @@
+"""Formats of files of points: bytes to coordinates."""

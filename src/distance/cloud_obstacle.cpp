@@ -1,0 +1,197 @@
+#include "deformable_manipulation/distance/cloud_obstacle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "coordinate_limit.h"
+#include "local_copies.h"
+#include "obstacle_frame.h"
+#include "point_search.h"
+#include "pose_checks.h"
+
+namespace deformable_manipulation {
+namespace distance {
+namespace {
+
+constexpr double kAtPoint = 1e-9;  // m, distance below which the direction to a point is rounding
+
+}  // namespace
+
+PointCloud::PointCloud(const float* xyz, std::size_t count) { build(xyz, count); }
+PointCloud::PointCloud(const double* xyz, std::size_t count) { build(xyz, count); }
+
+template <typename Number>
+void PointCloud::build(const Number* xyz, std::size_t count) {
+  constexpr auto kLargest = static_cast<Number>(kLargestCoordinate);
+  const auto usable = [](const Number* p) {  // no number is not
+    return std::fabs(p[0]) <= kLargest && std::fabs(p[1]) <= kLargest && std::fabs(p[2]) <= kLargest;
+  };
+  std::array<Number, 3> low = {kLargest, kLargest, kLargest}, high = {-kLargest, -kLargest, -kLargest};
+  std::size_t used = 0;
+  for (const Number* p = xyz; p != xyz + 3 * count; p += 3) {
+    if (usable(p)) {
+      ++used;
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], p[axis]);
+        high[axis] = std::max(high[axis], p[axis]);
+      }
+    }
+  }
+  left_out_ = count - used;
+  if (used == 0) {
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    middle_[axis] = 0.5 * (double(low[axis]) + high[axis]);
+  }
+  std::vector<FloatPoint> points;
+  points.reserve(used);
+  for (const Number* p = xyz; p != xyz + 3 * count; p += 3) {
+    if (usable(p)) {
+      points.push_back({static_cast<float>(p[0] - middle_[0]), static_cast<float>(p[1] - middle_[1]),
+                        static_cast<float>(p[2] - middle_[2])});
+    }
+  }
+  tree_ = std::make_shared<const PointTree>(points);
+}
+
+PointCloud::~PointCloud() = default;
+
+std::size_t PointCloud::size() const { return tree_ == nullptr ? 0 : tree_->size(); }
+
+std::size_t PointCloud::bytes() const { return tree_ == nullptr ? 0 : tree_->bytes(); }
+
+//! A cloud, the object in its frame, and what was nearest last.
+class CloudObstacle::Search {
+ public:
+  explicit Search(double radius) : radius_(radius) {}
+
+  ObstacleFrame frame;
+
+  void setCloud(const PointCloud& cloud) {
+    tree_ = cloud.tree();
+    middle_ = cloud.middle();
+    search_.setCloud(tree_);
+    known_.clear();
+  }
+
+  void minima(const ObjectView& object, Feature* nearest) {
+    if (tree_ == nullptr) {
+      std::fill_n(nearest, object.copies, nothing());
+      return;
+    }
+    prepare(object);
+    for (int copy = 0; copy < object.copies; ++copy) {
+      bring(object, copy);
+      known_[copy].nearest = search_.minimum(copies_.object(), guess(copy), &known_[copy].bounds);
+      nearest[copy] = featureAt(object, copy, known_[copy].nearest);
+    }
+  }
+
+  void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+    if (tree_ == nullptr || !(limit + radius_ >= 0.0)) {
+      return;
+    }
+    prepare(object);
+    bring(object, 0);
+    places_.clear();
+    search_.elements(copies_.object(), limit + radius_, &known_[0].bounds, &places_);
+    for (const PointPlace& place : places_) {
+      found->push_back(featureAt(object, 0, place));
+    }
+  }
+
+ private:
+  //! What is known of a copy from the calls before.
+  struct Known {
+    PointPlace nearest;
+    MovingBounds bounds;
+  };
+
+  static Feature nothing() {
+    Feature feature;
+    feature.distance = INFINITY;
+    return feature;
+  }
+
+  //! What was nearest to this copy, or else is to the one before.
+  PointPlace guess(int copy) const {
+    return known_[copy].nearest.known() || copy == 0 ? known_[copy].nearest : known_[copy - 1].nearest;
+  }
+
+  void prepare(const ObjectView& object) {
+    if (copies_.prepare(object)) {
+      known_.clear();
+    }
+    for (int copy = static_cast<int>(known_.size()); copy < copies_.count(); ++copy) {
+      known_.emplace_back();
+      known_.back().bounds.reset(copies_.object().size());
+    }
+  }
+
+  void bring(const ObjectView& object, int copy) {
+    known_[copy].bounds.move(
+        copies_.bring(object, copy, [this](const Vector3& point) { return Vector3(frame.toLocal(point) - middle_); }));
+  }
+
+  Feature featureAt(const ObjectView& object, int copy, const PointPlace& place) {
+    Feature feature;
+    feature.vertices = copies_.object().element(place.element);
+    feature.weights = place.weights;
+    for (int k = 0; k < 3; ++k) {
+      feature.object_point += place.weights[k] * object.point(copy, feature.vertices[k]);
+    }
+    const Vector3 arm = frame.toFixed(frame.toLocal(feature.object_point) - middle_ - tree_->point(place.piece));
+    const double length = arm.norm();
+    feature.distance = length - radius_;
+    feature.normal = length > kAtPoint ? Vector3(arm / length) : frame.toFixed(Vector3::UnitZ());
+    feature.obstacle_point = feature.object_point - feature.distance * feature.normal;
+    feature.obstacle_velocity = frame.velocityAt(feature.obstacle_point);
+    return feature;
+  }
+
+  double radius_;                     // m
+  Vector3 middle_ = Vector3::Zero();  // m
+  std::shared_ptr<const PointTree> tree_;
+  PointSearch search_;
+  LocalCopies copies_;
+  std::vector<Known> known_;  // [copies]
+  std::vector<PointPlace> places_;
+};
+
+CloudObstacle::CloudObstacle(const std::shared_ptr<const PointCloud>& cloud, double radius) {
+  std::vector<std::string> problems;
+  if (!(radius >= 0.0 && radius <= kLargestCoordinate)) {
+    std::ostringstream text;
+    text << "radius is " << radius << "; it must be 0 or more, at most 1e6 m";
+    problems.push_back(text.str());
+  }
+  throwIfAny(problems);
+  search_ = std::make_unique<Search>(radius);
+  setCloud(cloud);
+}
+
+CloudObstacle::~CloudObstacle() = default;
+
+void CloudObstacle::setCloud(const std::shared_ptr<const PointCloud>& cloud) {
+  if (cloud == nullptr) {
+    throwIfAny({"there is no cloud; without points, give one that is empty"});
+  }
+  search_->setCloud(*cloud);
+}
+
+void CloudObstacle::place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
+  search_->frame.set(translation, rotation, velocity);
+}
+
+void CloudObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
+
+void CloudObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
+  search_->features(object, limit, found);
+}
+
+}  // namespace distance
+}  // namespace deformable_manipulation
