@@ -32,8 +32,15 @@ Priority readPriority(const ParameterSection& controller, const std::vector<std:
 }  // namespace
 
 HorizonParameters HorizonParameters::read(const ParameterSection& horizon) {
-  return {horizon.number("length"), horizon.integer("nodes"), horizon.number("leader_fade"),
-          horizon.number("leader_doubt"), horizon.vector<3>("weights")};
+  return {horizon.number("length"),
+          horizon.integer("nodes"),
+          horizon.choice<ExpectedLeader>("leader", {{"fading", ExpectedLeader::FADING},
+                                                    {"announced", ExpectedLeader::ANNOUNCED},
+                                                    {"known", ExpectedLeader::KNOWN}}),
+          horizon.number("leader_fade"),
+          horizon.number("leader_doubt"),
+          horizon.number("obstacle_doubt"),
+          horizon.vector<3>("weights")};
 }
 
 ControllerParameters ControllerParameters::read(const ParameterSection& controller, const ParameterSection& team) {

@@ -49,17 +49,20 @@ Priority afterFirst(const Priority& priority) {
 }  // namespace
 
 Horizon::Horizon(const ControllerParameters& parameters, std::shared_ptr<ObjectForecast> forecast)
-    : forecast_(std::move(forecast)) {
+    : leader_forecast_(parameters.horizon), forecast_(std::move(forecast)) {
   setParameters(parameters);
 }
 
 void Horizon::setParameters(const ControllerParameters& p) {
   parameters_ = p.horizon;
+  leader_forecast_.setParameters(p.horizon);
+  forecast_->setObstacleDoubt(p.horizon.obstacle_doubt);
   team_ = commandingAll(p, p.horizon.length);
   max_velocity_ = p.max_velocity;
   change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
   weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
+  times_.resize(p.horizon.nodes);
   gain_ = (1.0 - std::exp(-p.gain * interval_)) / interval_;
   barriers_ = makeBarriers(p.barriers, demandingPositions(p), team_);
   const Eigen::VectorXd weights = p.horizon.weights.replicate(p.horizon.nodes * columns(), 1);
@@ -71,15 +74,23 @@ void Horizon::setParameters(const ControllerParameters& p) {
   }
 }
 
-void Horizon::reset() { departures_.setZero(3 * parameters_.nodes * columns()); }
+void Horizon::reset() {
+  departures_.setZero(3 * parameters_.nodes * columns());
+  leader_forecast_.reset();
+  forecast_->reset();
+}
 
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,
                    const std::vector<Follower>& followers) {
-  expectLeader(predicted);
+  leader_forecast_.look(observation, predicted);
   follow(predicted, followers);
   displace();
   hold(observation.agents);
-  forecast_->look(observation, held_);
+  for (int node = 0; node < parameters_.nodes; ++node) {
+    const bool known = team_.formulation.obstacle_velocity;
+    times_[node] = observation.time + (known ? predicted.delay + timeOf(node) : 0.0);
+  }
+  forecast_->look(observation, held_, times_);
   rows_.clear(static_cast<int>(departures_.size()));
   for (int node = 0; node < parameters_.nodes; ++node) {
     addLimits(node);
@@ -89,18 +100,9 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   departures_ += change_ * (filter_->filter(zero_, rows_, -reach_, reach_).velocity - departures_);
 }
 
-void Horizon::expectLeader(const PredictedState& predicted) {
-  speed_ = predicted.leaderVelocity().norm();
-  leader_.assign(1, predicted.positions[team_.leader]);
-  for (int node = 0; node < parameters_.nodes; ++node) {
-    const double fade = parameters_.leader_fade;
-    const Vector3 fading = fade * (1.0 - std::exp(-timeOf(node) / fade)) * predicted.leaderVelocity();
-    leader_.push_back(leader_[0] + fading);
-  }
-}
-
 //! What becomes of the assistants by the nominal law, within their velocity, and the last plan's departures from it.
 void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
+  const std::vector<Vector3>& leader = leader_forecast_.positions();
   paths_.resize(columns());
   for (int column = 0; column < columns(); ++column) {
     const int agent = team_.commanded[column];
@@ -110,8 +112,8 @@ void Horizon::follow(const PredictedState& predicted, const std::vector<Follower
     path.velocities.clear();
     path.pulls.clear();
     for (int node = 0; node < parameters_.nodes; ++node) {
-      const Vector3 error = leader_[node] + followers[agent].place - path.positions[node];
-      const Vector3 nominal = (leader_[node + 1] - leader_[node]) / interval_ + gain_ * error;
+      const Vector3 error = leader[node] + followers[agent].place - path.positions[node];
+      const Vector3 nominal = (leader[node + 1] - leader[node]) / interval_ + gain_ * error;
       path.velocities.push_back(nominal.cwiseMax(-path.max_velocity).cwiseMin(path.max_velocity));
       path.pulls.push_back(gain_ * pullOf(nominal, path.max_velocity));
       const Vector3 velocity = path.velocities[node] + departures_.segment<3>(variable(node, column));
@@ -146,7 +148,7 @@ void Horizon::hold(int agents) {
   held_.resize(static_cast<std::size_t>(parameters_.nodes) * agents);
   for (int node = 0; node < parameters_.nodes; ++node) {
     Vector3* held = &held_[static_cast<std::size_t>(node) * agents];
-    held[team_.leader] = leader_[node + 1];
+    held[team_.leader] = leader_forecast_.positions()[node + 1];
     for (int column = 0; column < columns(); ++column) {
       held[team_.commanded[column]] = paths_[column].positions[node + 1];
     }
@@ -162,10 +164,7 @@ void Horizon::addLimits(int node) {
   there.velocities.assign(there.positions.size(), Vector3::Zero());
   forecast_->takeFeatures(node, team_.leader, features_);
   for (int m = 0; m < features_.size(); ++m) {
-    const bool known = team_.formulation.obstacle_velocity;
-    const double approach = known ? features_.normal[m].dot(features_.obstacle_velocity[m]) : 0.0;
-    features_.distance[m] -= timeOf(node) * (approach + parameters_.leader_doubt * speed_);
-    features_.obstacle_velocity[m].setZero();
+    features_.distance[m] -= timeOf(node) * leader_forecast_.doubt(node);
   }
   const Eigen::Index width = 3 * columns();
   node_rows_.clear(static_cast<int>(width));
@@ -211,7 +210,7 @@ void Horizon::addVelocities() {
 
 //! The faster the leader, the more it counts that there is a way back.
 void Horizon::weigh() {
-  const double fast = std::min(1.0, speed_ / max_velocity_);
+  const double fast = std::min(1.0, leader_forecast_.fastest() / max_velocity_);
   const Vector3 weights = (1.0 - fast) * weights_at_rest_ + fast * parameters_.weights;
   filter_->setWeights(weights.replicate(parameters_.nodes * columns(), 1));
 }

@@ -5,6 +5,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 
+#include "deformable_manipulation/control/announcement.h"
 #include "deformable_manipulation/control/class_k.h"
 #include "deformable_manipulation/control/position_filter.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
@@ -97,6 +98,14 @@ void bindFilter(py::module_& module) {
           "[m/s] at the newest measurements. Raises RuntimeError if none is known.");
 }
 
+//! What makes an announcement unusable, as a clause.
+std::string findIntentFault(const Numbers& times, const Numbers& positions) {
+  if (times.ndim() != 1 || positions.ndim() != 2 || positions.shape(0) != times.size() || positions.shape(1) != 3) {
+    return "its times and positions do not have the shapes (K,) and (K, 3)";
+  }
+  return findFault({static_cast<int>(times.size()), times.data(), positions.data()});
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_control, module) {
@@ -108,6 +117,10 @@ PYBIND11_MODULE(_control, module) {
                                     "ValueError.")
       .def(py::init<double, double>(), py::arg("above"), py::arg("below"))
       .def("__call__", &PiecewiseLinearClassK::operator(), py::arg("h"), "alpha(h) [unit of h per second].");
+  module.def(
+      "find_intent_fault", &findIntentFault, py::arg("times"), py::arg("positions"),
+      "What makes the leader's positions (K, 3) [m] at times (K,) [s] unusable as an announcement, as a clause;\n"
+      "empty: nothing.");
   bindEstimator(module);
   bindFilter(module);
   bindQuadraticProgram(module);

@@ -123,6 +123,45 @@ void bindIntent(py::module_& module) {
       .def_property_readonly("departure", vector(&AssistantIntent::departure));
 }
 
+std::shared_ptr<MinimumDistance> nativeOf(const std::shared_ptr<NamedMinimumDistance>& distance) {
+  if (distance == nullptr) {
+    throw py::value_error("distance must not be None");
+  }
+  return {distance, &distance->native};
+}
+
+//! A pose from its position [m] and its quaternion x, y, z, w.
+Pose toPose(const Eigen::Matrix<double, 7, 1>& numbers) {
+  return {numbers.head<3>(), deformable_manipulation::pbd::Quaternion(numbers.tail<4>()).normalized()};
+}
+
+void bindObstacleForecast(py::module_& module) {
+  using PoseRows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+  py::class_<ObstacleForecast>(module, "ObstacleForecast",
+                               "An obstacle on a path. distance: _distance.MinimumDistance from it alone, at the pose\n"
+                               "place (7,): m, quaternion x, y, z, w; poses (K, 7): of its origin, `step` [s] apart,\n"
+                               "the first at the time `begin` [s]. Raises ValueError.")
+      .def(py::init([](const std::shared_ptr<NamedMinimumDistance>& distance, const Eigen::Matrix<double, 7, 1>& place,
+                       double begin, double step, const PoseRows& poses) {
+             PosePath path{begin, step, {}};
+             for (Eigen::Index k = 0; k < poses.rows(); ++k) {
+               path.poses.push_back(toPose(poses.row(k)));
+             }
+             return ObstacleForecast(nativeOf(distance), toPose(place), std::move(path));
+           }),
+           py::arg("distance"), py::arg("place"), py::arg("begin"), py::arg("step"), py::arg("poses"));
+  py::class_<MeasuredObstacle>(
+      module, "MeasuredObstacle",
+      "An obstacle whose poses are measured. distance, place: as of ObstacleForecast; index: of its\n"
+      "pose among those of an observation.")
+      .def(py::init([](const std::shared_ptr<NamedMinimumDistance>& distance, const Eigen::Matrix<double, 7, 1>& place,
+                       int index) {
+             const PosePath standing{0.0, 1.0, {toPose(place)}};
+             return MeasuredObstacle(ObstacleForecast(nativeOf(distance), toPose(place), standing), index);
+           }),
+           py::arg("distance"), py::arg("place"), py::arg("index"));
+}
+
 void bindDecision(py::module_& module) {
   py::class_<Decision>(module, "Decision", "What control.decision.Decision is made of; h and slack by barrier.")
       .def_property_readonly("status", [](const Decision& d) { return static_cast<int>(d.status); })
@@ -151,6 +190,7 @@ void bindDecision(py::module_& module) {
 
 void bindController(py::module_& module) {
   bindDecision(module);
+  bindObstacleForecast(module);
   bindIntent(module);
   py::class_<BoundController>(
       module, "TeamController",
@@ -178,29 +218,27 @@ void bindController(py::module_& module) {
       .def(
           "look_ahead",
           [](BoundController& bound, std::shared_ptr<RestShapes> shapes,
-             const std::shared_ptr<NamedMinimumDistance>& distance, const py::object& triangles) {
-            if (distance == nullptr) {
-              throw py::value_error("distance must not be None");
-            }
+             const std::shared_ptr<NamedMinimumDistance>& standing, std::vector<ObstacleForecast> moving,
+             std::vector<MeasuredObstacle> measured, const py::object& triangles) {
             std::vector<std::array<int, 3>> faces;
             if (!triangles.is_none()) {
               faces = triangles.cast<std::vector<std::array<int, 3>>>();
             }
-            std::shared_ptr<MinimumDistance> native(distance, &distance->native);
-            bound.controller.setForecast(
-                std::make_shared<ObjectForecast>(std::move(shapes), std::move(native), std::move(faces)));
+            bound.controller.setForecast(std::make_shared<ObjectForecast>(
+                std::move(shapes), nativeOf(standing), std::move(moving), std::move(measured), std::move(faces)));
           },
-          py::arg("shapes"), py::arg("distance"), py::arg("triangles"),
-          "Looks ahead with _pbd.RestShapes and a _distance.MinimumDistance of its own.")
+          py::arg("shapes"), py::arg("standing"), py::arg("moving"), py::arg("measured"), py::arg("triangles"),
+          "Looks ahead with _pbd.RestShapes, a _distance.MinimumDistance of its own from the obstacles that stand, "
+          "and\n"
+          "ObstacleForecasts and MeasuredObstacles of the others.")
       .def(
           "find_detours",
           [](BoundController& bound, int member, std::shared_ptr<RestShapes> shapes,
              const std::shared_ptr<NamedMinimumDistance>& distance) {
-            if (shapes == nullptr || distance == nullptr) {
-              throw py::value_error("shapes and distance must not be None");
+            if (shapes == nullptr) {
+              throw py::value_error("shapes must not be None");
             }
-            std::shared_ptr<MinimumDistance> native(distance, &distance->native);
-            bound.controller.setDetour(checked(bound, member), DetourSearch(std::move(shapes), std::move(native)));
+            bound.controller.setDetour(checked(bound, member), DetourSearch(std::move(shapes), nativeOf(distance)));
           },
           py::arg("member"), py::arg("shapes"), py::arg("distance"),
           "Lets an own assistant look for ways around, with _pbd.RestShapes of its own and a "

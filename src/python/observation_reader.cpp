@@ -59,6 +59,7 @@ std::string ObservationReader::read(const py::handle& observation, int agents) {
   view_ = {};
   try {
     readState(observation, agents);
+    readIntent(observation.attr("intent"));
     readDistances(observation.attr("distances"));
   } catch (const Unusable& unusable) {
     return unusable.fault;
@@ -89,9 +90,24 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   if (!observation.attr("velocities").is_none()) {
     view_.velocities = numbers(observation, "velocities", "velocities", {agents, 3});
   }
+  if (!observation.attr("obstacles").is_none()) {
+    view_.obstacles = static_cast<int>(arrayOf(observation, "obstacles", "obstacles", "fiu").shape(0));
+    view_.obstacle_poses = numbers(observation, "obstacles", "obstacles", {view_.obstacles, 7});
+  }
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }
+}
+
+void ObservationReader::readIntent(const py::handle& intent) {
+  if (intent.is_none()) {
+    return;
+  }
+  const py::array times = arrayOf(intent, "times", "intent.times", "fiu");
+  const py::ssize_t count = times.size();
+  view_.announcement.count = static_cast<int>(count);
+  view_.announcement.times = numbers(intent, "times", "intent.times", {count});
+  view_.announcement.positions = numbers(intent, "positions", "intent.positions", {count, 3});
 }
 
 void ObservationReader::readDistances(const py::handle& distances) {

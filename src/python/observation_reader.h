@@ -22,6 +22,7 @@ class ObservationReader {
   using Shape = std::vector<pybind11::ssize_t>;
 
   void readState(const pybind11::handle& observation, int agents);
+  void readIntent(const pybind11::handle& intent);
   void readDistances(const pybind11::handle& distances);
   const double* numbers(const pybind11::handle& owner, const char* key, const char* name, const Shape& shape);
   const int* indices(const pybind11::handle& owner, const char* key, const char* name, const Shape& shape);

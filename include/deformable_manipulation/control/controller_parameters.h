@@ -12,13 +12,22 @@ namespace control {
 
 using pbd::Vector3;
 
+//! What the leader is expected to do, see LeaderForecast.
+enum class ExpectedLeader {
+  FADING,     //!< goes on with a velocity that fades
+  ANNOUNCED,  //!< does what it announces, as far as that has been true lately
+  KNOWN       //!< does what it announces
+};
+
 //! How far a controller looks ahead, see Horizon.
 struct HorizonParameters {
-  double length;        //!< [s] 0: not at all
-  int nodes;            //!< number N of times at which it looks
-  double leader_fade;   //!< [s] time constant with which the leader's velocity is expected to fade
-  double leader_doubt;  //!< part of the leader's expected way by which distances may be smaller
-  Vector3 weights;      //!< cost of departing from the nominal velocity per axis
+  double length;  //!< [s] 0: not at all
+  int nodes;      //!< number N of times at which it looks
+  ExpectedLeader leader;
+  double leader_fade;     //!< [s] time constant with which the leader's velocity is expected to fade
+  double leader_doubt;    //!< part of the leader's expected way by which distances may be smaller
+  double obstacle_doubt;  //!< part of a measured obstacle's expected way by which it may come nearer
+  Vector3 weights;        //!< cost of departing from the nominal velocity per axis
 
   //! Reads the section `controller.horizon`.
   static HorizonParameters read(const ParameterSection& horizon);

@@ -5,6 +5,7 @@
 
 #include "deformable_manipulation/control/barrier.h"
 #include "deformable_manipulation/control/controller_parameters.h"
+#include "deformable_manipulation/control/leader_forecast.h"
 #include "deformable_manipulation/control/object_forecast.h"
 #include "deformable_manipulation/control/safety_filter.h"
 
@@ -20,14 +21,14 @@ struct Follower {
 //! Looks ahead: finds what the assistants have to do now so that the limits can still be kept later
 //! (docs/mathematics.md, "Horizon").
 //!
-//! The leader is expected to go on with a velocity that fades, and the assistants to follow it by the nominal law. At
+//! The leader is expected to do what LeaderForecast says, and the assistants to follow it by the nominal law. At
 //! the nodes t_n of the horizon, the object rests in the shape that belongs to the held points there. The variables are
 //! the departures z_k of the assistants from the nominal law, constant between two nodes,
 //!
 //!   min sum_k |diag(weights) z_k|^2  subject to  h(t_n) >= 0 for each node and barrier,  |u_k| <= u_max,
 //!
-//! with the barriers linearised about the last plan. Distances count less by what the leader may do otherwise,
-//! leader_doubt times its speed and t_n. The program is solved once per cycle and starts from the plan of
+//! with the barriers linearised about the last plan. Distances count less by what the leader may do otherwise until
+//! t_n. The program is solved once per cycle and starts from the plan of
 //! the cycle before. If the nominal law breaks no limit within the horizon, the departures are zero. The first of them
 //! changes the nominal velocity of the present cycle, whose own limits stay as they are. All assistants are in the
 //! plan, whoever commands them: each controller computes the same plan and follows its own part.
@@ -52,7 +53,6 @@ class Horizon {
   Vector3 departure(int agent) const;
 
  private:
-  void expectLeader(const PredictedState& predicted);
   void follow(const PredictedState& predicted, const std::vector<Follower>& followers);
   void displace();
   void hold(int agents);
@@ -67,12 +67,12 @@ class Horizon {
   Team team_;            // that commands all assistants
   double change_ = 1.0;  // part of the way from the last plan to the new one that is taken in a cycle
   double max_velocity_ = 0.0;
-  double speed_ = 0.0;       // [m/s] of the leader
   Vector3 weights_at_rest_;  // behind a leader at rest
   double interval_ = 0.0;    // [s]
   double gain_ = 0.0;        // [1/s] of the law with a constant velocity in each interval
   std::vector<std::unique_ptr<Barrier>> barriers_;
   std::unique_ptr<SafetyFilter> filter_;
+  LeaderForecast leader_forecast_;
   std::shared_ptr<ObjectForecast> forecast_;
 
   //! What the nominal law and the last plan's departures make of an assistant.
@@ -84,11 +84,11 @@ class Horizon {
     double max_velocity;              // [m/s]
   };
 
-  std::vector<Vector3> leader_;  // [N + 1] m, its held point
-  std::vector<Path> paths_;      // [M]
-  std::vector<Vector3> held_;    // [N x A] m, by the last plan
-  Eigen::VectorXd departures_;   // [N x M x 3] m/s
-  Eigen::VectorXd displaced_;    // [N x M x 3] m, to first order, by the last plan's departures
+  std::vector<Path> paths_;     // [M]
+  std::vector<double> times_;   // [N] s, of the nodes
+  std::vector<Vector3> held_;   // [N x A] m, by the last plan
+  Eigen::VectorXd departures_;  // [N x M x 3] m/s
+  Eigen::VectorXd displaced_;   // [N x M x 3] m, to first order, by the last plan's departures
   Eigen::VectorXd zero_;
   Eigen::VectorXd reach_;  // [m/s] of departures
   Features features_;

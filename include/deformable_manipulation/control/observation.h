@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "deformable_manipulation/control/announcement.h"
 #include "deformable_manipulation/distance/features.h"
 #include "deformable_manipulation/pbd/types.h"
 
@@ -29,6 +30,9 @@ struct ObservationView {
   const bool* ready = nullptr;            //!< [C] false while a copy still moves to its displacement
   const double* sensitivities = nullptr;  //!< [A x P x 3 x 3] d point / d held point at rest; null: not known
   const distance::Distances* distances = nullptr;  //!< of all C copies
+  int obstacles = 0;                               //!< K that move
+  const double* obstacle_poses = nullptr;          //!< [K x 7] m, quaternion x, y, z, w; null: not told
+  AnnouncementView announcement;                   //!< where the leader will be; without effect where it has a fault
 
   Eigen::Map<const Vector3> position(int agent) const { return Eigen::Map<const Vector3>(positions + 3 * agent); }
 };

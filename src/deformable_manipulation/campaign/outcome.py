@@ -1,6 +1,7 @@
 """The outcome of one run, in the numbers that a campaign counts."""
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from typing import Dict, Mapping, Optional
 
@@ -17,6 +18,9 @@ DEADLOCK_ERROR = 0.05  # m
 DEADLOCK_TIME = 3.0  # s
 OSCILLATION_FREQUENCY = 1.0  # Hz
 _FILTER_ORDER = 4
+
+# Whether a run could be answered: it was; nobody could; one who knows the path could; not known.
+KEPT, IMPOSSIBLE, POSSIBLE, UNKNOWN = "kept", "impossible", "possible", "unknown"
 _SHORTEST_STRETCH = 2.0  # s, of constrained motion: less has nothing to say about 1 Hz
 _RECOVERY = 10.0  # s, after which an assistant that was constrained has come back to its place
 
@@ -31,6 +35,7 @@ class RunOutcome:
     min_distance: float  # m; inf: no obstacle
     violations: Mapping[str, float]  # m, of each barrier, by name
     deadlock: bool  # an assistant stays away from its place though nothing is in the way
+    stuck: bool  # an assistant stays away from its place, whatever is in the way
     relaxed: int  # quadratic programs
     failed: int
     oscillation: float  # m RMS, of the distance above 1 Hz while an assistant is constrained
@@ -38,6 +43,15 @@ class RunOutcome:
     final_error: float  # m, largest of all assistants
     constrained: float  # share of the run in which an assistant is constrained
     shape_error: float  # largest relative change of the object's length
+    path: str = ""  # kind of the leader's path
+    speed: float = math.nan  # m/s, that no component of the leader's velocity exceeds
+    leader: str = ""  # what the controllers expect of it
+    answer: str = ""  # what somebody could have done who knows the path: KEPT, IMPOSSIBLE ...
+    least_overstretch: float = 0.0  # m, by which anybody must exceed the limits of stretch
+
+    def misses(self, tolerance: float) -> bool:
+        """Whether a limit was missed by more than the tolerance [m], or the run broke down."""
+        return not self.completed or any(each > tolerance for each in self.violations.values())
 
     def to_mapping(self) -> Dict[str, object]:
         """All fields by name, the violations as ``violation_NAME``."""
@@ -61,6 +75,7 @@ def assess(
     constrained = np.isin(status, (Status.CONSTRAINED, Status.RELAXED)).any(axis=0)
     rate = scenario.controller.rate
     lowest = float(distance.min(initial=np.inf))
+    away = _stays_away(scenario, series, error)
     return RunOutcome(
         index=index,
         completed=problem is None,
@@ -69,7 +84,8 @@ def assess(
         violations={
             name: _below_zero(_of_assistants(series, f"h_{name}")) for name in series.barriers
         },
-        deadlock=_is_deadlocked(scenario, series, error, distance),
+        deadlock=away and _is_free(scenario, distance),
+        stuck=away,
         relaxed=int(np.count_nonzero(status == Status.RELAXED)),
         failed=int(np.count_nonzero(status == Status.FAILED)),
         oscillation=oscillation(distance, constrained, rate),
@@ -113,9 +129,13 @@ def _undisturbed(constrained: np.ndarray, rate: float) -> np.ndarray:
     return (samples - last > _RECOVERY * rate) | (last < 0)
 
 
-def _is_deadlocked(scenario, series, error, distance) -> bool:
-    """Whether an error stays above 5 cm for the last 3 s with the leader at rest in free space."""
-    last = int(DEADLOCK_TIME * scenario.controller.rate)
+def _last_rows(scenario) -> int:
+    return int(DEADLOCK_TIME * scenario.controller.rate)
+
+
+def _stays_away(scenario, series, error) -> bool:
+    """Whether an error stays above 5 cm for the last 3 s with the leader at rest."""
+    last = _last_rows(scenario)
     if not 0 < last <= len(series):
         return False
     leader = scenario.agents[scenario.leader_index].name
@@ -123,9 +143,14 @@ def _is_deadlocked(scenario, series, error, distance) -> bool:
         [series.column(f"{leader}.{name}") for name in vector_columns("velocity")]
     )
     at_rest = np.linalg.norm(velocity[-last:], axis=1).max() < REST_SPEED
+    return bool(at_rest and (error[:, -last:].min(axis=1) > DEADLOCK_ERROR).any())
+
+
+def _is_free(scenario, distance) -> bool:
+    """Whether nothing is near the object for the last 3 s."""
     collision = scenario.controller.collision
-    free = distance[-last:].min() > collision.offset + collision.band
-    return bool(at_rest and free and (error[:, -last:].min(axis=1) > DEADLOCK_ERROR).any())
+    lowest = distance[-_last_rows(scenario) :].min()
+    return bool(lowest > collision.offset + collision.band)
 
 
 def _below_zero(margins: np.ndarray) -> float:

@@ -4,7 +4,9 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
-from deformable_manipulation.campaign.outcome import RunOutcome
+from deformable_manipulation.campaign.confidence import interval
+from deformable_manipulation.campaign.outcome import IMPOSSIBLE, POSSIBLE, UNKNOWN, RunOutcome
+from deformable_manipulation.markdown.table import table
 
 
 def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any]:
@@ -21,6 +23,11 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any
         "violations": {name: _violations(outcomes, name, tolerance) for name in _limits(outcomes)},
         "lowest_distance": min((o.min_distance for o in outcomes), default=None),
         "deadlocks": sum(outcome.deadlock for outcome in outcomes),
+        "stuck": _counted(outcomes, lambda outcome: outcome.stuck),
+        "answers": {
+            answer: sum(outcome.answer == answer for outcome in outcomes)
+            for answer in (IMPOSSIBLE, POSSIBLE, UNKNOWN)
+        },
         "runs_with_relaxed_programs": sum(outcome.relaxed > 0 for outcome in outcomes),
         "relaxed_programs": sum(outcome.relaxed for outcome in outcomes),
         "failed_programs": sum(outcome.failed for outcome in outcomes),
@@ -62,8 +69,13 @@ def describe(summary: Dict[str, Any]) -> str:
     lines: List[str] = ["{runs} runs, {not_completed} not completed".format(**summary)]
     for name, violation in summary["violations"].items():
         worst_of_all = _millimetres(violation["worst"])
-        lines.append(f"{name + ' violated':22}{violation['runs']} runs, by {worst_of_all} at worst")
-    lines.append(f"{'deadlocks':22}{summary['deadlocks']}")
+        lines.append(
+            f"{name + ' violated':22}{violation['runs']} runs, {_percent(violation)}, "
+            f"by {worst_of_all} at worst"
+        )
+    lines += _describe_answers(summary["answers"])
+    lines.append(f"{'stuck':22}{summary['stuck']['runs']} runs, {_percent(summary['stuck'])}")
+    lines.append(f"{'deadlocks':22}{summary['deadlocks']}, in free space")
     lines.append(
         f"{'programs relaxed':22}{summary['relaxed_programs']} in "
         f"{summary['runs_with_relaxed_programs']} runs; failed {summary['failed_programs']}"
@@ -80,6 +92,55 @@ def describe(summary: Dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def _describe_answers(answers) -> List[str]:
+    """What somebody who knows the leader's path could have done in the runs that missed a limit."""
+    if not any(answers.values()):
+        return []
+    return [
+        f"{'with foreknowledge':22}{answers[IMPOSSIBLE]} of these impossible for anybody, "
+        f"{answers[POSSIBLE]} possible, {answers[UNKNOWN]} not known"
+    ]
+
+
+def _percent(counted) -> str:
+    """The 95 % confidence interval of a fraction of runs."""
+    low, high = counted["interval"]
+    return f"{100.0 * low:.1f} to {100.0 * high:.1f} %"
+
+
+def describe_classes(classes: Sequence[Sequence[RunOutcome]], tolerance: float) -> str:
+    """A table of all classes: counts, worst amounts and 95 % confidence intervals."""
+    names = _limits([outcome for outcomes in classes for outcome in outcomes])
+    header = ["path", "speed [m/s]", "leader", "runs", *(f"{name} violated" for name in names)]
+    header += ["stuck", "deadlocks", "programs relaxed", "impossible", "possible", "not known"]
+    rows = []
+    for outcomes in classes:
+        summary = summarise(outcomes, tolerance)
+        runs, first = summary["runs"], outcomes[0]
+        cells = [first.path, f"{first.speed:g}", first.leader, str(runs)]
+        for name in names:
+            violation = summary["violations"].get(name)
+            cells.append("" if violation is None else _missed(violation))
+        cells += [_fraction(summary["stuck"]), str(summary["deadlocks"])]
+        cells.append(str(summary["relaxed_programs"]))
+        rows.append(cells + [str(count) for count in summary["answers"].values()])
+    return table(header, rows)
+
+
+def _missed(violation) -> str:
+    worst_of_all = f", by {_millimetres(violation['worst'])}" if violation["runs"] else ""
+    return f"{_fraction(violation)}{worst_of_all}"
+
+
+def _fraction(counted) -> str:
+    return f"{counted['runs']} ({_percent(counted)})"
+
+
+def _counted(outcomes, happened) -> Dict[str, Any]:
+    count = sum(map(happened, outcomes))
+    return {"runs": count, "interval": list(interval(count, len(outcomes)))}
+
+
 def _limits(outcomes: Sequence[RunOutcome]) -> List[str]:
     """Names of the barriers in use."""
     return list(dict.fromkeys(name for outcome in outcomes for name in outcome.violations))
@@ -87,10 +148,8 @@ def _limits(outcomes: Sequence[RunOutcome]) -> List[str]:
 
 def _violations(outcomes, name, tolerance):
     amounts = [outcome.violations.get(name, 0.0) for outcome in outcomes]
-    return {
-        "runs": sum(amount > tolerance for amount in amounts),
-        "worst": max(amounts, default=0.0),
-    }
+    counted = _counted(amounts, lambda amount: amount > tolerance)
+    return {**counted, "worst": max(amounts, default=0.0)}
 
 
 def _spread(values):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from deformable_manipulation.campaign.leader_paths import NoPath, random_path
+from deformable_manipulation.campaign.leader_paths import PLACES, NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
@@ -40,6 +40,7 @@ class Ranges:
     """What is random in a campaign, and how much."""
 
     speed: float = 0.1  # m/s, that no component of the leader's velocity exceeds
+    path: str = PLACES  # kind of the leader's path, or DIVES
     duration: float = 90.0  # s
     clearance: float = 0.25  # m, that the leader's grip keeps from the obstacles
     material: float = 1.5  # stiffness and weight are changed by up to this factor
@@ -93,6 +94,7 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
         ranges.duration,
         lambda points: clearance(start + points),
         ranges.clearance,
+        ranges.path,
     )
     leader = dataclasses.replace(drawn.leader, waypoints=tuple(path))
     drawn = dataclasses.replace(drawn, leader=leader)

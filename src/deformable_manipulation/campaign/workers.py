@@ -12,7 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Iterator, Sequence
 
 from deformable_manipulation.campaign.outcome import RunOutcome
-from deformable_manipulation.campaign.runs import Campaign
+from deformable_manipulation.campaign.runs import Runs
 
 _TRIES = 3  # of a run whose workers are lost
 _PATIENCE = 60.0  # s, until a cluster's first worker has come
@@ -22,7 +22,7 @@ class WorkersLost(RuntimeError):
     """Runs could not be done: their workers ended again and again, or none came."""
 
 
-def run_here(campaign: Campaign, indices: Sequence[int], workers: int) -> Iterator[RunOutcome]:
+def run_here(campaign: Runs, indices: Sequence[int], workers: int) -> Iterator[RunOutcome]:
     """Do runs in processes of this machine; yields the outcomes as they come.
 
     A worker that is killed takes its pool with it: the runs that have no outcome yet are done again
@@ -59,10 +59,10 @@ def _in_one_pool(campaign, indices, workers) -> Iterator[RunOutcome]:
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-_campaign: Campaign  # of this worker process
+_campaign: Runs  # of this worker process
 
 
-def _start_worker(campaign: Campaign) -> None:
+def _start_worker(campaign: Runs) -> None:
     global _campaign
     _campaign = campaign
 
@@ -71,9 +71,7 @@ def _run(index: int) -> RunOutcome:
     return _campaign.run(index)
 
 
-def run_on_cluster(
-    campaign: Campaign, indices: Sequence[int], address: str
-) -> Iterator[RunOutcome]:
+def run_on_cluster(campaign: Runs, indices: Sequence[int], address: str) -> Iterator[RunOutcome]:
     """Do runs on the workers of a Dask scheduler; yields the outcomes as they come.
 
     Waits for a first worker; others may come and go. Dask gives the runs of a lost worker to
@@ -88,7 +86,7 @@ def run_on_cluster(
     with distributed.Client(address, timeout=10) as client:
         _await_worker(client, address)
         shared = client.scatter(campaign, broadcast=True)
-        futures = client.map(Campaign.run, [shared] * len(indices), indices, pure=False)
+        futures = client.map(type(campaign).run, [shared] * len(indices), indices, pure=False)
         for future in distributed.as_completed(futures):
             if future.status == "error" and isinstance(
                 future.exception(), distributed.KilledWorker

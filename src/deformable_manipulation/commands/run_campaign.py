@@ -7,14 +7,22 @@ import json
 import re
 import sys
 import time
+from itertools import product
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from deformable_manipulation.campaign import workers
 from deformable_manipulation.campaign.exit_status import UNACCEPTABLE
+from deformable_manipulation.campaign.leader_paths import DIVES, PLACES
 from deformable_manipulation.campaign.outcome import RunOutcome
-from deformable_manipulation.campaign.report import describe, is_acceptable, summarise, worst
-from deformable_manipulation.campaign.runs import Campaign
+from deformable_manipulation.campaign.report import (
+    describe,
+    describe_classes,
+    is_acceptable,
+    summarise,
+    worst,
+)
+from deformable_manipulation.campaign.runs import Campaign, Classes
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.commands.arguments import (
     add_scenario_arguments,
@@ -28,6 +36,7 @@ from deformable_manipulation.commands.without_ros import warn_of_standing_obstac
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_files import atomic_file
 from deformable_manipulation.scenario import ScenarioError, load_scenario, scenario_to_yaml
+from deformable_manipulation.scenario.horizon import ANNOUNCED, FADING, KNOWN
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.interruption import (
     exit_status,
@@ -43,6 +52,8 @@ machine. Writes campaign.json, runs.csv, campaign.png and worst.yaml, the scenar
 EPILOG = """examples:
   run_campaign rope_one_assistant --runs 200 --seed 1
   run_campaign rope_two_assistants --runs 50 --speed 0.15 --output output/fast
+  run_campaign rope_one_assistant --runs 100 --speed 0.2,0.3 --path places,dives \\
+    --leader fading,announced --foreknowledge
   run_campaign rope_one_assistant --runs 2000 --cluster tcp://10.0.0.1:8786
   run_scenario output/fast/worst.yaml      # repeats the worst run
 
@@ -58,8 +69,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     arguments = _parse(argv)
     try:
         scenario = load_scenario(arguments.scenario, arguments.set)
-        campaign = Campaign(scenario, _ranges(arguments), arguments.seed, arguments.safety)
-        vary(scenario, campaign.ranges, campaign.seed, 0)  # what cannot be varied fails at once
+        classes = _classes(scenario, arguments)
+        for each in classes.campaigns:
+            vary(each.scenario, each.ranges, each.seed, 0)  # what cannot be varied fails at once
         folder = _prepare(arguments, scenario)
     except (ScenarioError, NoVariation, OSError) as error:
         print(f"run_campaign: {error}", file=sys.stderr)
@@ -69,7 +81,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     if misnamed:
         print(f"run_campaign: WARNING: {misnamed}", file=sys.stderr)
     with interruptible():
-        return _run(campaign, arguments, folder)
+        return _run(classes, arguments, folder)
 
 
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
@@ -77,17 +89,43 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     add_scenario_arguments(parser)
     defaults = Ranges()
     parser.add_argument(
-        "--runs", type=_positive(int), default=100, metavar="N", help="number of runs (%(default)s)"
+        "--runs",
+        type=_positive(int),
+        default=100,
+        metavar="N",
+        help="number of runs, of each class (%(default)s)",
     )
     parser.add_argument(
         "--seed", type=_natural, default=0, metavar="S", help="0 or more (%(default)s)"
     )
     parser.add_argument(
         "--speed",
-        type=_speed,
-        default=defaults.speed,
-        metavar="M/S",
-        help="limit of each component of the leader's velocity (%(default)s)",
+        type=_several(_speed),
+        default=(defaults.speed,),
+        metavar="M/S[,M/S...]",
+        help=f"limit of each component of the leader's velocity ({defaults.speed}); several, "
+        "separated by commas: a class of runs for each",
+    )
+    parser.add_argument(
+        "--path",
+        type=_several(_one_of(PLACES, DIVES)),
+        default=(defaults.path,),
+        metavar="KIND[,KIND]",
+        help=f"{PLACES}: the leader goes from place to place near the obstacles (default); "
+        f"{DIVES}: it plunges straight down to them; both: a class for each",
+    )
+    parser.add_argument(
+        "--leader",
+        type=_several(_one_of(FADING, ANNOUNCED, KNOWN)),
+        metavar="EXPECTED[,EXPECTED...]",
+        help="controller.horizon.leader: a class for each of these, with the same runs",
+    )
+    parser.add_argument(
+        "--foreknowledge",
+        action="store_true",
+        help="try each run that misses a limit again with controllers that know the leader's path "
+        "many seconds ahead, to see whether it can be answered at all; takes several times as long "
+        "for these runs",
     )
     parser.add_argument(
         "--duration",
@@ -151,6 +189,28 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
+def _several(kind):
+    """Values separated by commas, each once."""
+
+    def convert(text):
+        values = tuple(map(kind, text.split(",")))
+        if len(set(values)) < len(values):
+            raise argparse.ArgumentTypeError(f"'{text}': each value must be there once")
+        return values
+
+    convert.__name__ = "list"
+    return convert
+
+
+def _one_of(*allowed):
+    def convert(text):
+        if text not in allowed:
+            raise argparse.ArgumentTypeError(f"'{text}': must be {' or '.join(allowed)}")
+        return text
+
+    return convert
+
+
 def _positive(kind):
     def convert(text):
         value = kind(text)
@@ -206,9 +266,35 @@ def _factor(text):
     return value
 
 
-def _ranges(arguments: argparse.Namespace) -> Ranges:
-    names = [field.name for field in dataclasses.fields(Ranges)]
-    return Ranges(**{name: getattr(arguments, name) for name in names})
+def _classes(scenario: Scenario, arguments: argparse.Namespace) -> Classes:
+    """A campaign for each kind of path, speed and expectation of the leader."""
+    common = {
+        field.name: getattr(arguments, field.name)
+        for field in dataclasses.fields(Ranges)
+        if field.name not in ("path", "speed")
+    }
+    expected = arguments.leader or (scenario.controller.horizon.leader,)
+    return Classes(
+        tuple(
+            Campaign(
+                _expecting(scenario, leader),
+                Ranges(path=path, speed=speed, **common),
+                arguments.seed,
+                arguments.safety,
+                arguments.tolerance,
+                arguments.foreknowledge,
+            )
+            for path, speed, leader in product(arguments.path, arguments.speed, expected)
+        ),
+        arguments.runs,
+    )
+
+
+def _expecting(scenario: Scenario, leader: str) -> Scenario:
+    """The scenario with controllers that expect the leader to do so."""
+    horizon = dataclasses.replace(scenario.controller.horizon, leader=leader)
+    controller = dataclasses.replace(scenario.controller, horizon=horizon)
+    return dataclasses.replace(scenario, controller=controller)
 
 
 def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
@@ -225,16 +311,16 @@ def _prepare(arguments: argparse.Namespace, scenario: Scenario) -> Path:
     return folder
 
 
-def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int:
+def _run(classes: Classes, arguments: argparse.Namespace, folder: Path) -> int:
     """Do the runs; what has been done is written, whatever ends them."""
     outcomes: List[RunOutcome] = []
     progress = ProgressDisplay(sys.stderr)
     started = time.perf_counter()
     code = 0
     try:
-        for outcome in _outcomes(campaign, arguments):
+        for outcome in _outcomes(classes, arguments):
             outcomes.append(outcome)
-            progress(len(outcomes) / arguments.runs)
+            progress(len(outcomes) / len(classes))
     except KeyboardInterrupt as interrupt:
         code = exit_status(interrupt)
     except (workers.WorkersLost, OSError, ImportError) as error:
@@ -248,12 +334,16 @@ def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int
     outcomes.sort(key=lambda outcome: outcome.index)
     summary = summarise(outcomes, arguments.tolerance)
     with interrupts_ignored():
-        _write(campaign, arguments, outcomes, summary, time.perf_counter() - started, folder)
-    print(describe(summary))
+        _write(classes, arguments, outcomes, summary, time.perf_counter() - started, folder)
+    if len(classes.campaigns) > 1:
+        found = [each for _, each in _by_class(classes, outcomes)]
+        print(describe_classes(found, arguments.tolerance))
+    else:
+        print(describe(summary))
     print(f"written to {folder}; the worst run: run_scenario {folder / 'worst.yaml'}")
-    if len(outcomes) < arguments.runs:
+    if len(outcomes) < len(classes):
         print(
-            f"run_campaign: only {len(outcomes)} of {arguments.runs} runs were done. They are kept "
+            f"run_campaign: only {len(outcomes)} of {len(classes)} runs were done. They are kept "
             f"in {folder / 'runs.csv'} and counted in {folder / 'campaign.json'}. For all "
             "of them, start again with another --output: the same seed gives the same runs",
             file=sys.stderr,
@@ -261,22 +351,40 @@ def _run(campaign: Campaign, arguments: argparse.Namespace, folder: Path) -> int
     return code or (0 if is_acceptable(summary) else UNACCEPTABLE)
 
 
-def _outcomes(campaign: Campaign, arguments: argparse.Namespace):
+def _outcomes(classes: Classes, arguments: argparse.Namespace):
+    indices = range(len(classes))
     if arguments.cluster:
-        return workers.run_on_cluster(campaign, range(arguments.runs), arguments.cluster)
-    count = arguments.workers or workers.cores()
-    return workers.run_here(campaign, range(arguments.runs), count)
+        return workers.run_on_cluster(classes, indices, arguments.cluster)
+    return workers.run_here(classes, indices, arguments.workers or workers.cores())
 
 
-def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> None:
+def _by_class(
+    classes: Classes, outcomes: List[RunOutcome]
+) -> List[Tuple[Campaign, List[RunOutcome]]]:
+    """The outcomes of each class of which there are any, in order."""
+    found: Dict[int, List[RunOutcome]] = {}
+    for outcome in outcomes:
+        found.setdefault(outcome.index // classes.runs, []).append(outcome)
+    return [(classes.campaigns[number], each) for number, each in sorted(found.items())]
+
+
+def _write(classes, arguments, outcomes, summary, wall_time, folder: Path) -> None:
     from deformable_manipulation.campaign.plots import plot_campaign
     from deformable_manipulation.plots.style import save_figure
 
+    first = classes.campaigns[0]
     content = {
-        "scenario": campaign.scenario.name,
-        "seed": campaign.seed,
-        "safety": campaign.safety,
-        "ranges": dataclasses.asdict(campaign.ranges),
+        "scenario": first.scenario.name,
+        "seed": first.seed,
+        "safety": first.safety,
+        "classes": [
+            {
+                "ranges": dataclasses.asdict(campaign.ranges),
+                "leader": campaign.scenario.controller.horizon.leader,
+                "summary": summarise(found, arguments.tolerance),
+            }
+            for campaign, found in _by_class(classes, outcomes)
+        ],
         "summary": summary,
         "wall_time": wall_time,
         "version": package_version(),
@@ -290,13 +398,13 @@ def _write(campaign, arguments, outcomes, summary, wall_time, folder: Path) -> N
         table = csv.DictWriter(file, dict.fromkeys(name for row in rows for name in row))
         table.writeheader()
         table.writerows(rows)
-    bad = worst(outcomes).index
+    campaign, number = classes.locate(worst(outcomes).index)
     try:
-        varied = vary(campaign.scenario, campaign.ranges, campaign.seed, bad)
+        varied = vary(campaign.scenario, campaign.ranges, campaign.seed, number)
     except NoVariation as error:
         print(f"run_campaign: {error}", file=sys.stderr)
     else:
         with atomic_file(folder / "worst.yaml") as file:
             file.write(scenario_to_yaml(varied))
-    offset = campaign.scenario.controller.collision.offset
-    save_figure(plot_campaign(outcomes, offset, campaign.scenario.name), folder / "campaign.png")
+    offset = first.scenario.controller.collision.offset
+    save_figure(plot_campaign(outcomes, offset, first.scenario.name), folder / "campaign.png")

@@ -69,7 +69,13 @@ class TeamController:
 
     def _use(self, forecast, settings):
         if settings.horizon.length > 0.0:
-            self._native.look_ahead(forecast.make_shapes(), forecast.distance, forecast.triangles)
+            self._native.look_ahead(
+                forecast.make_shapes(),
+                forecast.standing(),
+                forecast.moving(),
+                forecast.measured(),
+                forecast.triangles,
+            )
         if settings.detours and forecast.has_shapes and forecast.knows_all:
             for number in self._members.values():
                 self._native.find_detours(number, forecast.make_shapes(), forecast.distance)

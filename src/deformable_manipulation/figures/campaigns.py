@@ -109,7 +109,7 @@ def measure_fabrics(say: Say) -> Dict[str, str]:
                 [
                     f"`{value}`" if value else "full",
                     str(seed),
-                    _missed(one),
+                    missed(one),
                     str(one["deadlocks"]),
                     str(one["relaxed_programs"]),
                 ]
@@ -137,7 +137,7 @@ def measure_fast_leaders(say: Say) -> Dict[str, str]:
         for value, _ in _LOOKING:
             found = run_campaign(name, [*fixed, *_set(value)], say)
             stuck = f"; {found['deadlocks']} deadlocked" if found["deadlocks"] else ""
-            cells.append(_missed(found) + stuck)
+            cells.append(missed(found) + stuck)
         rows.append([f"`{name}`", f"{speed} m/s", *cells])
     return {"fast_leaders": table(["scenario", "leader", *(text for _, text in _LOOKING)], rows)}
 
@@ -208,11 +208,11 @@ def _campaigns(found: Dict[Tuple[str, str], Dict]) -> str:
 
 def _summary(found: Dict[Tuple[str, str], Dict]) -> str:
     names = [name for name, value, _ in _CAMPAIGNS if not value]
-    rows = [[f"`{name}`", _missed(found[name, ""]), _missed(found[name, _PAPER])] for name in names]
+    rows = [[f"`{name}`", missed(found[name, ""]), missed(found[name, _PAPER])] for name in names]
     return table(["", "this package", "paper's formulation"], rows)
 
 
-def _missed(one: Dict) -> str:
+def missed(one: Dict) -> str:
     """Runs that missed a limit: those of one campaign may miss several."""
     kinds = [
         f"{one['violations'][kind]['runs']} {text}, by up to "

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Callable, Dict, Optional, Sequence, Tuple
 
 from deformable_manipulation.benchmarks.subject import SUBJECTS
-from deformable_manipulation.figures import campaigns, scenarios
+from deformable_manipulation.figures import announcements, campaigns, scenarios
 from deformable_manipulation.figures.runs import Say
 
 README = "README.md"
@@ -101,6 +101,18 @@ SUBJECT_LIST: Sequence[Subject] = (
         "run_campaign SCENARIO --runs N --seed 7 --duration 50 --speed M/S [--set VALUE]",
         CAMPAIGNS,
         campaigns.measure_fast_leaders,
+    ),
+    Subject(
+        {"announcements": SAFETY},
+        "run_campaign rope_one_assistant --runs 40 --seed 11 --duration 50 --speed 0.3 [OPTIONS]",
+        CAMPAIGNS,
+        announcements.measure_announcements,
+    ),
+    Subject(
+        {"wrong_announcements": SAFETY},
+        "run_campaign rope_one_assistant --runs 40 --seed 11 --duration 50 --speed 0.3 [OPTIONS]",
+        CAMPAIGNS,
+        announcements.measure_wrong_announcements,
     ),
     Subject(
         {"terms": SAFETY},

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Callable, Dict, Sequence
+from typing import Callable, Dict, List, Sequence
 
 from deformable_manipulation.campaign.exit_status import UNACCEPTABLE
 
@@ -31,8 +31,20 @@ def run_campaign(name: str, options: Sequence[str], say: Say) -> Dict:
     Raises:
         MeasurementError: it failed. Missed limits are no failure.
     """
-    ran = _run(["run_campaign", name, *options], (0, UNACCEPTABLE), "campaign.json", say)
-    return ran["summary"]
+    return _campaign(name, options, say)["summary"]
+
+
+def run_classes(name: str, options: Sequence[str], say: Say) -> List[Dict]:
+    """Run a campaign; returns the ``classes`` of its ``campaign.json``.
+
+    Raises:
+        MeasurementError: as for :func:`run_campaign`.
+    """
+    return _campaign(name, options, say)["classes"]
+
+
+def _campaign(name: str, options: Sequence[str], say: Say) -> Dict:
+    return _run(["run_campaign", name, *options], (0, UNACCEPTABLE), "campaign.json", say)
 
 
 def _run(arguments: Sequence[str], accepted: Sequence[int], result: str, say: Say) -> Dict:

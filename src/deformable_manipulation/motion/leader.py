@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from deformable_manipulation.motion.intent import Intent, times_ahead
 from deformable_manipulation.motion.smooth_path import SmoothPath
 
 _AT_START = 1e-3  # m
@@ -69,6 +70,7 @@ class LeaderController:
         self._start = [float(value) for value in scenario.agents[scenario.leader_index].start]
         self._cycle_time = scenario.cycle_time
         self._max_return = scenario.controller.max_velocity
+        self._ahead = times_ahead(scenario)
         self.reset()
 
     def reset(self):
@@ -107,6 +109,11 @@ class LeaderController:
             self._velocity = self._command(time, position)
             self._time = time
         return self._velocity
+
+    def intent(self, time):
+        """The Intent at a time [s] since the start of the run: the path from then on."""
+        times = time + self._ahead
+        return Intent(times, self._start + self._path.position(times))
 
     def _command(self, time, position):
         dt = self._cycle_time

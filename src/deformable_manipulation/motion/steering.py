@@ -5,6 +5,7 @@ import time
 import numpy as np
 
 from deformable_manipulation.motion.bounded_motion import BoundedMotion
+from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.scenario import leader_workspace
 
@@ -159,6 +160,13 @@ class SteeredLeader:
             self._velocity = self._hand.velocity(position, self._velocity)
             self._time = time
         return np.array(self._velocity)
+
+    def intent(self):
+        """The Intent at the newest state; None by hand and before the path begins."""
+        if self.source != PATH or self._time is None:
+            return None
+        intent = self._path.intent(self._time - self._origin)
+        return Intent(intent.times + self._origin, intent.positions)
 
     def _along_path(self, time, position, all_follow):
         if self._time is not None and time < self._time - 1.0:  # time was set back

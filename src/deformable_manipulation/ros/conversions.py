@@ -6,11 +6,14 @@ Agents are matched by name: a message may list them in another order than the sc
 
 import math
 
+import genpy
 import numpy as np
+from geometry_msgs.msg import PoseStamped
 
 from deformable_manipulation import _control
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.features import Distances
+from deformable_manipulation.motion.intent import Intent
 
 PLAIN_BARRIERS = ("collision", "overstretch", "proximity")  # with scalars in ControllerState
 
@@ -47,12 +50,12 @@ def agent_positions(state, scenario) -> np.ndarray:
     return positions[agent_order(state, scenario)]
 
 
-def to_observation(state, distances, scenario, age=0.0) -> Observation:
+def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=None) -> Observation:
     """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 
     Time counts from the start of the run: cycles of the scenario's rate. ``age`` [s] is that of the
     state: commands act when a cycle starts, so each whole cycle that has passed makes them late by
-    one.
+    one. ``intent``: the leader's Intent. ``obstacles``: (K, 7) poses of those that move.
 
     Raises:
         MessageError: another frame, an array's size does not fit, or an agent is missing.
@@ -78,6 +81,8 @@ def to_observation(state, distances, scenario, age=0.0) -> Observation:
         distances=distances,
         velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
+        obstacles=obstacles,
+        intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
     )
 
@@ -138,6 +143,11 @@ def to_distances(message) -> Distances:
         return Distances(**arrays, names=list(message.obstacles))
     except ValueError as error:
         raise MessageError(str(error)) from error
+
+
+def to_obstacle_poses(message) -> np.ndarray:
+    """Poses (K, 7) of the moving obstacles in a ``Distances`` message. Raises MessageError."""
+    return _reshaped(message.obstacle_poses, "obstacle_poses", (len(message.moving_obstacles), 7))
 
 
 def _obstacle_velocities(values, shape):
@@ -214,6 +224,47 @@ def _fill_barriers(message, decision):
     for name in PLAIN_BARRIERS:
         setattr(message, f"h_{name}", decision.h.get(name, math.nan))
         setattr(message, f"slack_{name}", decision.slack.get(name, 0.0))
+
+
+def to_leader_intent(message, state, scenario) -> Intent:
+    """The leader's Intent from a ``nav_msgs/Path``, in the time of a state's run.
+
+    The stamps of the poses say when the leader will be there, by the clock of the state's stamp.
+
+    Raises:
+        MessageError: another frame, or it cannot be used.
+    """
+    require_frame("intent", message, scenario)
+    now = state.cycle * scenario.cycle_time
+    places = [each.pose.position for each in message.poses]
+    try:
+        return Intent(
+            np.array(
+                [now + (each.header.stamp - state.header.stamp).to_sec() for each in message.poses]
+            ),
+            np.array([(place.x, place.y, place.z) for place in places]),
+        )
+    except ValueError as error:
+        raise MessageError(str(error)) from error
+
+
+def fill_path(message, state, cycle_time, frame, intent):
+    """Write the Intent with which a leader answers a state into a ``nav_msgs/Path``.
+
+    ``None``: nothing is announced, and the path is empty.
+    """
+    message.header.stamp, message.header.frame_id = state.header.stamp, frame
+    if intent is None:
+        return message
+    for ahead, place in zip(intent.times - state.cycle * cycle_time, intent.positions.tolist()):
+        pose = PoseStamped()
+        # from_sec() would cut off what is less than a nanosecond.
+        pose.header.stamp = state.header.stamp + genpy.Duration(0, round(1e9 * ahead))
+        pose.header.frame_id = frame
+        pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = place
+        pose.pose.orientation.w = 1.0
+        message.poses.append(pose)
+    return message
 
 
 def to_twist(message, state, velocity):

@@ -31,10 +31,14 @@ class Computed(NamedTuple):
 
 
 def known_distances(computed):
-    """The core's Distances of what was computed. Raises MessageError if they are not known."""
+    """The core's Distances of what was computed, and the poses of the moving obstacles.
+
+    Raises:
+        MessageError: they are not known.
+    """
     if computed.fault:
         raise MessageError(computed.fault)
-    return computed.distances
+    return computed.distances, computed.poses
 
 
 class DistancePublisher:

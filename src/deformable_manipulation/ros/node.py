@@ -73,13 +73,13 @@ def _require_numpy():
         )
 
 
-def subscribe(topic, message_class, callback):
-    """Subscribe to the newest message of a topic without delay."""
+def subscribe(topic, message_class, callback, queue_size=1):
+    """Subscribe to a topic without delay: to its newest message, or to more of them."""
     return rospy.Subscriber(
         topic,
         message_class,
         _until_shutdown(callback),
-        queue_size=1,
+        queue_size=queue_size,
         buff_size=BUFFER_SIZE,
         tcp_nodelay=True,
     )

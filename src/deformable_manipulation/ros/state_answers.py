@@ -39,19 +39,21 @@ class StateAnswers:
         self._cycles = cycle_monitor(scenario)
         self._answered_at = 0.0  # [s] of time.perf_counter()
 
-    def answer(self, state, distances_of):
+    def answer(self, state, distances_of, intent=None):
         """Command the velocities that answer a state, then report them.
 
         Args:
             state: the ObjectState.
-            distances_of: function without arguments that gives the core's Distances of it; may
-                raise MessageError.
+            distances_of: function without arguments that gives the core's Distances of it and the
+                poses (K, 7) of the moving obstacles; may raise MessageError.
+            intent: the leader's Intent, if it announces one.
         """
         started = self._answered_at = time.perf_counter()
         observation, fault = None, ""
         try:
-            distances = distances_of()
-            observation = to_observation(state, distances, self._scenario, self._age(state))
+            distances, obstacles = distances_of()
+            age = self._age(state)
+            observation = to_observation(state, distances, self._scenario, age, intent, obstacles)
         except MessageError as error:
             fault = f"cycle {state.cycle} cannot be used, {error}"
         decisions = self._decide(state, observation, fault)

@@ -1,14 +1,16 @@
 """The whole chain in one process, without ROS: leader, simulation, distances, controllers."""
 
 import time
-from typing import Dict, Tuple
+from typing import Dict, Optional, Tuple
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
+from deformable_manipulation.running.announcer import Announcer
 from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.factory import make_simulation
@@ -31,13 +33,15 @@ class ClosedLoop:
 
     def __init__(self, scenario: Scenario, safety: bool = True):
         self._scenario = scenario
-        perfect = scenario.knowledge.perfect
+        perfect = scenario.knowledge.sees_object
         # No gradients are needed without barriers; with imperfect knowledge the model has its own.
         copies = safety and perfect
         self._simulation = make_simulation(true_scenario(scenario), copies)
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
+        self._announcer = Announcer(scenario, self._leader)
+        self._intent: Optional[Intent] = None  # as announced with the state before
         self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
         self._observer = Observer(scenario, self._simulation, self._distance, perfect)
         self._knowledge = None
@@ -84,11 +88,12 @@ class ClosedLoop:
         """Answer the present state and advance to the next one."""
         simulation = self._simulation
         started = time.perf_counter()
-        observation = self._observer.observe()
+        observation = self._observer.observe(self._intent)
         measured = time.perf_counter()
         decisions = self._decide(observation)
         leader = self._leader_index
         leader_velocity = self._leader.update(observation.time, observation.positions[leader])
+        self._intent = self._announcer.announce(observation.time)
         decided = time.perf_counter()
         velocities = simulation.velocities()
         points = observation.points[0].copy()

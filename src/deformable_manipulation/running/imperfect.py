@@ -118,7 +118,9 @@ class ImperfectKnowledge:
         self._filter.update(truth.time - self._delay, self._poses.measure(truth.positions))
         if truth.cycle > 0:
             self._follow(self._filter.position(truth.time))
-        seen = dataclasses.replace(self._observer.observe(), velocities=self._filter.velocity())
+        seen = dataclasses.replace(
+            self._observer.observe(truth.intent), velocities=self._filter.velocity()
+        )
         decisions = {}
         for controller in self._controllers:
             decisions.update(controller.update(seen, truth))

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.reading.parameter import Live, parameter
-from deformable_manipulation.reading.readers import Integer, Number, Section, vector
+from deformable_manipulation.reading.readers import Choice, Integer, Number, Section, vector
+
+FADING, ANNOUNCED, KNOWN = "fading", "announced", "known"
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,15 @@ class HorizonSpec:
         default=8,
         native=True,
     )
+    leader: str = parameter(
+        Choice(FADING, ANNOUNCED, KNOWN),
+        "What the leader is expected to do. `fading`: go on with a velocity that fades. "
+        "`announced`: what it announces on `<leader>/intent`, as far as that has been true lately; "
+        "scripted leaders announce their path. `known`: what it announces, whatever has become of "
+        "that before; for scripted leaders.",
+        default=FADING,
+        native=True,
+    )
     leader_fade: float = parameter(
         Number("s", above=0.0, at_most=1000.0),
         "Time constant with which the leader's present velocity is expected to fade. Lower it for "
@@ -45,6 +56,15 @@ class HorizonSpec:
         live=Live(("horizon_leader_doubt",), 0.0, 10.0),
         native=True,
     )
+    obstacle_doubt: float = parameter(
+        Number("1", at_least=0.0, at_most=10.0),
+        "How much smaller than predicted the distance from an obstacle may be whose pose is "
+        "measured, per metre that it would travel at its present velocity until then. Raise it "
+        "for obstacles that turn without warning.",
+        default=0.2,
+        live=Live(("horizon_obstacle_doubt",), 0.0, 10.0),
+        native=True,
+    )
     weights: Vector = parameter(
         vector("1", at_least=1e-6, at_most=1e6),
         "Cost per axis of leaving the nominal velocity early, behind a leader that moves at "
@@ -55,6 +75,11 @@ class HorizonSpec:
         live=Live(("horizon_weight_x", "horizon_weight_y", "horizon_weight_z"), 0.01, 100.0),
         native=True,
     )
+
+    @property
+    def announced(self) -> bool:
+        """Whether the controllers want to know where the leader will be."""
+        return self.length > 0.0 and self.leader != FADING
 
 
 # The length depends on the object where it is left out: controller.for_object() fills it in.

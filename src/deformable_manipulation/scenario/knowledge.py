@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Integer, Number, Report, Section
+from deformable_manipulation.reading.readers import Choice, Integer, Number, Report, Section
 from deformable_manipulation.scenario.controller import ControllerSpec
+
+HONEST, OPPOSITE, DELAYED, SCALED, RANDOM = "honest", "opposite", "delayed", "scaled", "random"
 
 _FACTOR = Number("1", at_least=0.01, at_most=100.0)
 
@@ -40,6 +42,13 @@ class KnowledgeSpec:
         "for at most `controller.timeout`.",
         default=0.0,
     )
+    intent: str = parameter(
+        Choice(HONEST, OPPOSITE, DELAYED, SCALED, RANDOM),
+        "What the leader announces: its path; the opposite way; where it was to be 1 s before; "
+        "twice the way; a random velocity, another one every second. Has no effect without "
+        "`controller.horizon.leader`.",
+        default=HONEST,
+    )
     seed: int = parameter(
         Integer(0, 2**31 - 1),
         "Seed of the noise and the drops. The same seed gives the same run.",
@@ -48,8 +57,13 @@ class KnowledgeSpec:
 
     @property
     def perfect(self) -> bool:
-        """Whether the controllers see the object itself, at once and in every cycle."""
+        """Whether there is nothing that the controllers do not know exactly."""
         return dataclasses.replace(self, seed=0) == KnowledgeSpec()
+
+    @property
+    def sees_object(self) -> bool:
+        """Whether the controllers see the object itself, at once and in every cycle."""
+        return dataclasses.replace(self, intent=HONEST).perfect
 
 
 KNOWLEDGE = Section(KnowledgeSpec)

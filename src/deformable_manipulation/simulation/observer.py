@@ -1,6 +1,9 @@
 """Observations of a simulated object."""
 
+from typing import Optional
+
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.scenario.spec import Scenario
 
@@ -21,10 +24,14 @@ class Observer:
         self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
 
-    def observe(self) -> Observation:
-        """The present state; its points are valid until the next call."""
+    def observe(self, intent: Optional[Intent] = None) -> Observation:
+        """The present state, with what the leader has announced.
+
+        Its points are valid until the next call.
+        """
         simulation = self._simulation
         points = simulation.points(out=self._points)
+        distances = self.distances_of(points)  # moves the obstacles
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,
@@ -33,8 +40,10 @@ class Observer:
             displaced_agents=simulation.displaced_agents(),
             displacements=simulation.displacements(),
             ready=simulation.ready(),
-            distances=self.distances_of(points),
+            distances=distances,
             sensitivities=self._sensitivities(),
+            obstacles=self._obstacles.poses(),
+            intent=intent,
         )
 
     def distances_of(self, points):

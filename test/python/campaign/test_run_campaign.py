@@ -61,6 +61,25 @@ def test_without_the_filter_the_campaign_is_not_acceptable(tmp_path):
     assert code == run_campaign.UNACCEPTABLE
 
 
+def test_classes_are_counted_apart(tmp_path, capsys):
+    arguments = ["rope_one_assistant", "--runs", "2", "--duration", "45", "--no-safety"]
+    arguments += ["--path", "places,dives", "--speed", "0.1,0.3", "--set", "controller.rate=20"]
+    run_campaign.main([*arguments, "--output", str(tmp_path / "classes")])
+    content = json.loads((tmp_path / "classes" / "campaign.json").read_text())
+    classes = [(each["ranges"]["path"], each["ranges"]["speed"]) for each in content["classes"]]
+    assert classes == [("places", 0.1), ("places", 0.3), ("dives", 0.1), ("dives", 0.3)]
+    assert [each["summary"]["runs"] for each in content["classes"]] == [2, 2, 2, 2]
+    assert content["summary"]["runs"] == 8
+    rows = outcomes(tmp_path / "classes")
+    assert [int(row["index"]) for row in rows] == list(range(8))
+    assert [(row["path"], float(row["speed"])) for row in rows[::2]] == classes
+    violated = content["summary"]["violations"]["collision"]
+    low, high = violated["interval"]
+    assert 0.0 <= low <= violated["runs"] / 8 <= high <= 1.0
+    printed = capsys.readouterr().out
+    assert "| dives | 0.3 | fading | 2 |" in printed and "with foreknowledge" not in printed
+
+
 def test_an_older_campaign_is_not_overwritten(folder, capsys):
     assert run_campaign.main([*SHORT, "--runs", "1", "--output", str(folder)]) == 1
     assert "already holds a campaign" in capsys.readouterr().err
@@ -76,6 +95,9 @@ def test_an_older_campaign_is_not_overwritten(folder, capsys):
         (["--tolerance", "-1"], "must be a finite number, 0 or more"),
         (["--duration", "1e12"], "must be at most 100000 s"),
         (["--speed", "2.5"], "must be at most 2 m/s"),
+        (["--speed", "0.1,0.1"], "each value must be there once"),
+        (["--path", "jumps"], "must be places or dives"),
+        (["--leader", "absent"], "must be fading or announced or known"),
         (["--seed", "-1"], "must be 0 or more"),
         (["--material", "0.5"], "must be 1"),
         (["--cluster", "nowhere"], "tcp://HOST:PORT"),

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from deformable_manipulation.campaign.leader_paths import NoPath, random_path
+from deformable_manipulation.campaign.leader_paths import DIVES, NoPath, random_path
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
@@ -119,3 +119,25 @@ def test_no_path_where_everything_is_near():
             lambda points: np.zeros(len(points)),
             0.1,
         )
+
+
+def test_dives_go_straight_down_next_to_obstacles(scenario):
+    ranges = dataclasses.replace(RANGES, speed=0.3, path=DIVES)
+    for index in range(5):
+        varied = vary(scenario, ranges, 7, index)
+        path = LeaderPath(varied.leader.waypoints)
+        times = np.linspace(0.0, ranges.duration, 6000)
+        velocity = path.velocity(times)
+        assert np.abs(velocity).max() <= 1.01 * ranges.speed
+        down = velocity[:, 2] < -0.8 * ranges.speed
+        straight = np.abs(velocity[:, :2]).max(axis=1) < 1e-6
+        assert (down & straight).any()
+        assert varied.leader.waypoints[-1].time <= ranges.duration - 10.0
+
+
+def test_paths_from_place_to_place_are_those_of_before():
+    """Campaigns can be compared with older ones: the same seed gives the same runs."""
+    waypoints = vary(load_scenario("rope_one_assistant"), Ranges(), 1, 0).leader.waypoints
+    assert len(waypoints) == 7
+    assert waypoints[2].time == pytest.approx(37.93272183)
+    np.testing.assert_allclose(waypoints[2].position, (-0.05088955, 1.16805305, -0.92482283))

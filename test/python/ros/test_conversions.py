@@ -8,10 +8,12 @@ import pytest
 from geometry_msgs.msg import TwistStamped
 from mesh_reference import changed, fields_of
 from messages import distances_message, state_message, transmitted
+from nav_msgs.msg import Path as NavigationPath
 
 from deformable_manipulation.control.observation import find_fault
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.distance.features import Distances
+from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.msg import ControllerState
 from deformable_manipulation.ros import conversions
 from deformable_manipulation.ros.conversions import MessageError
@@ -264,3 +266,56 @@ def test_a_command_answers_its_state(state):
     linear, angular = twist.twist.linear, twist.twist.angular
     assert (linear.x, linear.y, linear.z) == (0.1, -0.2, 0.3)
     assert (angular.x, angular.y, angular.z) == (0.0, 0.0, 0.0)
+
+
+def path_message(scenario, stamp=12.49):
+    """A leader's announcement that answers the state before ``state``."""
+    before = state_message(stamp=stamp, cycle=149)
+    times = 1.49 + np.array([0.0, 0.2, 0.4])
+    intent = Intent(times, np.array([[0.0, 0.0, 1.0], [0.0, 0.02, 1.0], [0.0, 0.05, 0.9]]))
+    cycle_time = scenario.cycle_time
+    path = conversions.fill_path(NavigationPath(), before, cycle_time, scenario.frame, intent)
+    return transmitted(path), intent
+
+
+def test_an_announcement_keeps_its_times_and_places(scenario, state):
+    message, sent = path_message(scenario)
+    got = conversions.to_leader_intent(message, state, scenario)
+    assert message.header.stamp.to_sec() == pytest.approx(12.49)
+    np.testing.assert_allclose(got.times, sent.times, atol=2e-9)
+    np.testing.assert_array_equal(got.positions, sent.positions)
+
+
+def test_nothing_announced_is_an_empty_path(scenario):
+    before = state_message(stamp=12.49, cycle=149)
+    message = conversions.fill_path(
+        NavigationPath(), before, scenario.cycle_time, scenario.frame, None
+    )
+    assert not message.poses and message.header.frame_id == scenario.frame
+
+
+def _other_frame(message):
+    message.header.frame_id = "odom"
+
+
+def _out_of_order(message):
+    message.poses[1].header.stamp = message.poses[0].header.stamp
+
+
+def _not_finite(message):
+    message.poses[2].pose.position.z = math.nan
+
+
+@pytest.mark.parametrize(
+    "spoil, reason",
+    [
+        (_other_frame, "expected 'map'"),
+        (_out_of_order, "not after the one before"),
+        (_not_finite, "not finite"),
+    ],
+)
+def test_announcements_that_cannot_be_used_say_why(scenario, state, spoil, reason):
+    message, _ = path_message(scenario)
+    spoil(message)
+    with pytest.raises(MessageError, match=reason):
+        conversions.to_leader_intent(message, state, scenario)
