@@ -47,7 +47,7 @@ def test_no_limit_is_violated(summary):
 
 def test_both_limits_are_met(summary):
     """The fabric comes as near as it may, and is drawn as taut as it may be for that."""
-    assert summary["min_distance"] < summary["offset"] + 0.005
+    assert summary["min_distance"] < summary["offset"] + 0.012  # a margin of 0.01 m
     assert summary["min_margin"]["overstretch"] < 0.01
     errors = summary["tracking_error"].values()
     assert max(error["max"] for error in errors) > 0.1
