@@ -116,7 +116,7 @@ std::vector<double> TeamController::margins(int member, const PresentState& stat
 
 void TeamController::reset() {
   for (int i = 0; i < size(); ++i) {
-    members_[i].reference = parameters_.references[i];
+    members_[i].reference = members_[i].aim = parameters_.references[i];
   }
   followers_.clear();
   for (const Vector3& place : parameters_.places) {
@@ -199,6 +199,7 @@ void TeamController::learn(const AssistantIntent& told, double time, Member& mem
 void TeamController::takeReference(int member, const ObservationView& observation) {
   Member& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
+  taking.aim = taking.reference;
   taking.departure.setZero();  // it was from another nominal velocity
   if (taking.detour) {
     taking.detour->reset();

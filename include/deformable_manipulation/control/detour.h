@@ -16,21 +16,21 @@ enum class DetourState {
   NO_WAY      //!< none was found
 };
 
+//! How an assistant gets on.
+struct Traveller {
+  int agent;
+  Vector3 place;            //!< [m] relative to the leader
+  Vector3 command;          //!< [m/s] the last one
+  bool follows;             //!< false: it is to stand still
+  Vector3 leader;           //!< [m] held point
+  Vector3 leader_velocity;  //!< [m/s]
+};
+
 //! Brings an assistant that is held off its place, behind a leader at rest, to it by another way than the straight one.
 //!
 //! It only chooses where the nominal law goes to: the filter keeps the limits whatever the search says.
 class Detour {
  public:
-  //! How an assistant gets on.
-  struct Traveller {
-    int agent;
-    Vector3 place;            //!< [m] relative to the leader
-    Vector3 command;          //!< [m/s] the last one
-    bool follows;             //!< false: it is to stand still
-    Vector3 leader;           //!< [m] held point
-    Vector3 leader_velocity;  //!< [m/s]
-  };
-
   explicit Detour(DetourSearch search) : search_(std::move(search)) {}
 
   //! Takes in a state of the run, and goes on with a search by one place.

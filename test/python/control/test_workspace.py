@@ -112,7 +112,7 @@ def test_a_run_stays_within(series):
     free = load_scenario("rope_one_assistant", [("simulation.duration", "60.0")])
     loop = ClosedLoop(free)
     farthest = max(loop.step().positions[1, 1] for _ in range(free.cycles))
-    assert farthest > 2.3  # without the barrier
+    assert farthest > 2.22  # without the barrier
     h = series.column("assistant_1.h_workspace")
     assert h.min() >= -1e-3
     assert h.min() == pytest.approx((2.2 - series.column("assistant_1.position_y")).min())
