@@ -37,8 +37,8 @@ def with_foresight(scenario: Scenario) -> Iterator[Scenario]:
 def least_overstretch(scenario: Scenario) -> Optional[float]:
     """A lower bound of how far the maximum distances of two agents are exceeded by anybody [m].
 
-    The smallest excess s of any motion of the assistants with ``norm(x_i - x_j) <= L_ij + s`` at times
-    0.2 s apart, whose steps between them are within the assistants' velocity. Obstacles,
+    The smallest excess s of any motion of the assistants with ``norm(x_i - x_j) <= L_ij + s`` at
+    times 0.2 s apart, whose steps between them are within the assistants' velocity. Obstacles,
     accelerations and what happens in between are left out, so that no controller can do better. It
     is a convex program: cutting planes of the distances, whose optimum comes nearer from below.
 
