@@ -23,7 +23,7 @@ _SHARES = (
 )
 # Replaced value, seeds, number of runs of each.
 _FABRICS: Tuple[Tuple[str, Sequence[int], int], ...] = (
-    ("", (1, 2), 100),
+    ("", (1, 2, 3), 100),
     (_SHARES, (1,), 100),
     (_PAPER, (1,), 25),
 )
