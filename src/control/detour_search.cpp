@@ -188,6 +188,9 @@ bool DetourSearch::isPossible(const Place& before, const Place& after) const {
   }
   PresentState state{held_, after.distance};
   state.positions[agent_] = after.position;
+  state.shape.agents = static_cast<int>(held_.size());
+  state.shape.points = shapes_->pointCount();
+  state.shape.coordinates = after.points.data();
   return limits_(state) >= (after.position == goal_ ? 0.0 : kSpare);
 }
 

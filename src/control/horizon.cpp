@@ -162,6 +162,7 @@ void Horizon::addLimits(int node) {
   there.positions.assign(held_.begin() + static_cast<std::ptrdiff_t>(node) * team_.agents,
                          held_.begin() + static_cast<std::ptrdiff_t>(node + 1) * team_.agents);
   there.velocities.assign(there.positions.size(), Vector3::Zero());
+  there.shape = forecast_->shape(node);
   forecast_->takeFeatures(node, team_.leader, features_);
   for (int m = 0; m < features_.size(); ++m) {
     features_.distance[m] -= timeOf(node) * leader_forecast_.doubt(node);

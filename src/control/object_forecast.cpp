@@ -117,5 +117,17 @@ void ObjectForecast::takeFeatures(int node, int leader, Features& features) cons
   takeResponseGradients({nearest_, place}, {&responses_[numbers * place], agents_, points_of_shape_}, leader, features);
 }
 
+ObjectShape ObjectForecast::shape(int node) const {
+  ObjectShape shape;
+  shape.agents = agents_;
+  shape.points = points_of_shape_;
+  if (place_[node] >= 0) {
+    const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
+    shape.coordinates = &points_[numbers * place_[node]];
+    shape.response = &responses_[3 * numbers * agents_ * place_[node]];
+  }
+  return shape;
+}
+
 }  // namespace control
 }  // namespace deformable_manipulation

@@ -37,7 +37,9 @@ std::string notFinite(const ObservationView& o) {
        {Field{"positions", o.positions, 3L * o.agents}, Field{"velocities", o.velocities, 3L * o.agents},
         Field{"points", o.coordinates, coordinates}, Field{"displacements", o.displacements, 3L * o.copies},
         Field{"obstacles", o.obstacle_poses, 7L * o.obstacles},
-        Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
+        Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points},
+        Field{"wrenches", o.wrenches, 6L * o.copies * o.agents},
+        Field{"wrench_sensitivities", o.wrench_sensitivities, 36L * o.agents * o.agents}}) {
     if (field.values != nullptr && !areFinite(field.values, field.count)) {
       return std::string(field.name) + " of the state holds a number that is not finite";
     }

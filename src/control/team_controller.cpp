@@ -326,11 +326,11 @@ void TeamController::findWays(const ObservationView& observation) {
   }
 }
 
-//! The lowest h [m] of all barriers of an agent.
+//! [m] How far a state is within all limits of an agent.
 double TeamController::lowestMargin(const PresentState& state, int agent) const {
   double lowest = std::numeric_limits<double>::infinity();
   for (const auto& barrier : together_.barriers()) {
-    lowest = std::min(lowest, barrier->value(state, agent));
+    lowest = std::min(lowest, barrier->clearance(state, agent));
   }
   return lowest;
 }
@@ -344,6 +344,7 @@ Vector3 TeamController::nominal(const Member& member) const {
 //! What the decisions say about the present state, whatever the commands.
 void TeamController::describe(const ObservationView& observation) {
   present_.distance = observation.distances->minimum[0];
+  present_.shape = presentShape(observation);
   for (int i = 0; i < size(); ++i) {
     const Member& member = members_[i];
     Decision& decision = decisions_[i];
@@ -362,8 +363,12 @@ void TeamController::describe(const ObservationView& observation) {
 void TeamController::decide(const ObservationView& observation) {
   const bool usable = findGradients(observation);
   disturbances_.update(observation.time, moved_, parameters_.team.formulation.obstacle_velocity, features_);
-  if (parameters_.safety && features_.size() > 0 && !usable) {
+  const bool needed = features_.size() > 0 || together_.needsResponse();
+  if (parameters_.safety && needed && !usable) {
     return;
+  }
+  if (together_.needsResponse()) {
+    predicted_.shape = shapes_.observe(observation, differences_, decisions_.front().exact_jacobian);
   }
   describeGradients();
   setBounds();

@@ -1,5 +1,6 @@
 #include "deformable_manipulation/control/team_program.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -35,6 +36,10 @@ void TeamProgram::want(int column, const Vector3& nominal, const Vector3& lower,
   nominal_.segment<3>(3 * column) = nominal;
   lower_.segment<3>(3 * column) = lower;
   upper_.segment<3>(3 * column) = upper;
+}
+
+bool TeamProgram::needsResponse() const {
+  return std::any_of(barriers_.begin(), barriers_.end(), [](const auto& barrier) { return barrier->needsResponse(); });
 }
 
 const Filtered& TeamProgram::solve(const Features& features, const PredictedState& predicted) {

@@ -29,6 +29,8 @@ struct ObservationView {
   const double* displacements = nullptr;  //!< [C x 3] m, present displacement of that held point
   const bool* ready = nullptr;            //!< [C] false while a copy still moves to its displacement
   const double* sensitivities = nullptr;  //!< [A x P x 3 x 3] d point / d held point at rest; null: not known
+  const double* wrenches = nullptr;       //!< [C x A x 6] N, N m: what each copy exerts on the agents; null: not told
+  const double* wrench_sensitivities = nullptr;    //!< [A x 6 x A x 6] d wrench / d held point, turn; null: not known
   const distance::Distances* distances = nullptr;  //!< of all C copies
   int obstacles = 0;                               //!< K that move
   const double* obstacle_poses = nullptr;          //!< [K x 7] m, quaternion x, y, z, w; null: not told

@@ -2,12 +2,10 @@
 
 #include <vector>
 
-#include "deformable_manipulation/pbd/types.h"
+#include "deformable_manipulation/control/object_shape.h"
 
 namespace deformable_manipulation {
 namespace control {
-
-using pbd::Vector3;
 
 //! Motion of the A agents, predicted for the time at which the command acts.
 //!
@@ -17,7 +15,8 @@ struct PredictedState {
   std::vector<Vector3> positions;   //!< [A] m, held points when the command begins to act
   std::vector<Vector3> velocities;  //!< [A] m/s, from state k to then; expected to last
   int leader = 0;
-  double delay = 0.0;  //!< [s] from state k to then
+  double delay = 0.0;      //!< [s] from state k to then
+  ObjectShape shape = {};  //!< of the object in state k
 
   const Vector3& leaderVelocity() const { return velocities[leader]; }
 };

@@ -15,6 +15,7 @@
 #include "deformable_manipulation/control/motion_limits.h"
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/response_gradients.h"
+#include "deformable_manipulation/control/shape_observer.h"
 #include "deformable_manipulation/control/team_program.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
@@ -152,6 +153,7 @@ class TeamController {
   ControllerParameters parameters_;
   VelocityEstimator velocities_;
   Differences differences_;
+  ShapeObserver shapes_;
   DisturbanceObserver disturbances_;
   TeamProgram together_;                // of all members
   std::unique_ptr<TeamProgram> alone_;  // of the own ones; null: these are all

@@ -42,6 +42,9 @@ class TeamProgram {
 
   const std::vector<std::unique_ptr<Barrier>>& barriers() const { return barriers_; }
 
+  //! Whether a barrier's rows need to know how the object follows its held points.
+  bool needsResponse() const;
+
  private:
   std::vector<std::unique_ptr<Barrier>> barriers_;
   SafetyFilter filter_;

@@ -50,6 +50,18 @@ class RodEquilibrium {
   //! @throw std::logic_error unless VALID
   void response(int copy, double* to) const;
 
+  //! The same by turns [rad] about each held point, [holds x pointCount x 3 x 3] m; zero where a hold is pinned.
+  //! @throw std::logic_error unless VALID
+  void turningResponse(int copy, double* to) const;
+
+  //! What a copy exerts on its agents, [holds x 6]: force [N], torque about the held point [N m].
+  //! @throw std::logic_error unless VALID
+  void wrenches(int copy, double* to) const;
+
+  //! Derivatives of these with respect to each held point and turns about it, [holds x 6 x holds x 6].
+  //! @throw std::logic_error unless VALID
+  void wrenchResponse(int copy, double* to) const;
+
  private:
   void requireValid(int copy) const;
 
