@@ -17,11 +17,11 @@ ObjectShape ShapeObserver::observe(const ObservationView& observation, const Dif
   if (exact) {
     shape.response = observation.sensitivities;
     shape.wrench_response = observation.wrench_sensitivities;
-    return shape;
+  } else {
+    differences.takeResponse(response_);
+    shape.response = response_.data();
   }
-  differences.takeResponse(response_);
-  shape.response = response_.data();
-  if (differences.tellWrenches()) {
+  if (shape.wrench_response == nullptr && differences.tellWrenches()) {
     differences.takeWrenchResponse(wrench_response_);
     shape.wrench_response = wrench_response_.data();
   }

@@ -96,6 +96,19 @@ void takeReference(BoundController& bound, int member, const py::object& observa
   bound.controller.takeReference(checked(bound, member), bound.reader.view());
 }
 
+std::vector<double> margins(BoundController& bound, int member, const py::object& observation) {
+  const std::string fault = bound.reader.read(observation, bound.agents);
+  if (!fault.empty()) {
+    throw py::value_error(fault);
+  }
+  const ObservationView& view = bound.reader.view();
+  PresentState state{{}, view.distances->minimum[0], presentShape(view)};
+  for (int agent = 0; agent < view.agents; ++agent) {
+    state.positions.push_back(view.position(agent));
+  }
+  return bound.controller.margins(checked(bound, member), state);
+}
+
 //! A vector of a decision or an intent as a new array.
 template <typename Owner>
 auto vector(Vector3 Owner::*member) {
@@ -262,11 +275,6 @@ void bindController(py::module_& module) {
            "The Answer to an observation; None if the state is not newer than the last one.")
       .def(
           "wait", [](BoundController& bound) { return bound.controller.wait(); }, "Decisions to stand still.")
-      .def(
-          "margins",
-          [](const BoundController& bound, int member, const std::vector<Vector3>& positions, double distance) {
-            return bound.controller.margins(checked(bound, member), {positions, distance});
-          },
-          py::arg("member"), py::arg("positions"), py::arg("distance"),
-          "The least h [m] of each barrier for an assistant, for held points (A, 3) [m] and a minimum distance [m].");
+      .def("margins", &margins, py::arg("member"), py::arg("observation"),
+           "The least h of each barrier for an assistant in an observed state. Raises ValueError.");
 }

@@ -97,6 +97,13 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }
+  if (!observation.attr("wrenches").is_none()) {
+    view_.wrenches = numbers(observation, "wrenches", "wrenches", {copies, agents, 6});
+  }
+  if (!observation.attr("wrench_sensitivities").is_none()) {
+    view_.wrench_sensitivities =
+        numbers(observation, "wrench_sensitivities", "wrench_sensitivities", {agents, 6, agents, 6});
+  }
 }
 
 void ObservationReader::readIntent(const py::handle& intent) {

@@ -144,6 +144,9 @@ void Simulator::publish() {
   if (scenario_.exact_response) {
     addResponse();
   }
+  if (scenario_.wrenches) {
+    fillWrenches(simulation_, state_);
+  }
   ++published_;
   if (options_.lockstep) {
     rosgraph_msgs::Clock clock;

@@ -15,7 +15,8 @@ ObjectShape presentShape(const ObservationView& observation);
 //! The same with the derivatives.
 class ShapeObserver {
  public:
-  //! @param exact from the response that the observation tells, else from its copies
+  //! @param exact from the response that the observation tells, else from its copies. The copies also stand in for a
+  //! response of the wrenches that it does not tell
   //! @return valid until the next call, and as long as the observation is
   ObjectShape observe(const ObservationView& observation, const Differences& differences, bool exact);
 

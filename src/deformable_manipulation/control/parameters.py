@@ -56,8 +56,7 @@ def _controller(scenario: Scenario) -> Dict[str, Any]:
     mapping = controller_to_mapping(scenario)
     mapping["priority"] = list(scenario.controller.priority or scenario.controller.barriers)
     for name in scenario.controller.barriers:
-        derive = BARRIERS[name].derive
-        mapping[name].update(derive(scenario.object, scenario.agents, scenario.controller))
+        mapping[name].update(BARRIERS[name].derive(scenario))
     return mapping
 
 

@@ -1,7 +1,7 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
 from itertools import cycle
-from typing import List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib import rc_context
@@ -30,6 +30,7 @@ from deformable_manipulation.plots.style import (
 )
 from deformable_manipulation.recording.run_data import AssistantSeries, RunData
 from deformable_manipulation.recording.timeseries import AXES
+from deformable_manipulation.scenario.barriers import BARRIERS
 
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
@@ -52,14 +53,15 @@ def plot_controller(
     """Draw the data plot of one controller of a run.
 
     Panels over a shared time axis: distance to the obstacle with its limit, norm of the tracking
-    error, margins of the other barriers, and every moving component of the nominal and the
-    commanded velocity. Shading shows what the safety filter did. Violations of a limit are filled
-    and marked at their worst.
+    error, margins of the other barriers in a panel for each unit, and every moving component of
+    the nominal and the commanded velocity. Shading shows what the safety filter did. Violations of
+    a limit are filled and marked at their worst.
 
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
     components = _moving_components(series)
-    panels = 3 + len(components)
+    units = _units(series)
+    panels = 2 + len(units) + len(components)
     with rc_context(STYLE):
         figure = figure if figure is not None else Figure()
         figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
@@ -69,10 +71,12 @@ def plot_controller(
         axes[1].plot(series.time, series.error_norm, color=BLUE)
         axes[1].set_ylabel("error [m]")
         start_at_zero(axes[1])
-        violated |= _plot_margins(axes[2], series)
-        for axis, component in zip(axes[3:], components):
+        for axis, (unit, names) in zip(axes[2:], units.items()):
+            violated |= _plot_margins(axis, series, unit, names)
+        velocities = axes[2 + len(units) :]
+        for axis, component in zip(velocities, components):
             _plot_velocity(axis, series, component)
-        _legend_above(axes[3])
+        _legend_above(velocities[0])
         _finish_figure(figure, axes, run, series, violated)
     return figure
 
@@ -100,16 +104,30 @@ def _finish_figure(
     )
 
 
-def _plot_margins(axis: Axes, series: AssistantSeries) -> bool:
-    """Draw all barriers' margins but that of the distance; true where one falls below zero."""
-    axis.set_ylabel("margin [m]")
+def _units(series: AssistantSeries) -> Dict[str, List[str]]:
+    """Names of the barriers by the units of their margins, but for that of the distance."""
+    units: Dict[str, List[str]] = {"m": []}
+    for name in series.h:
+        if name != "collision":
+            units.setdefault(_unit(name), []).append(name)
+    return units
+
+
+def _unit(name: str) -> str:
+    """Recordings may have barriers that are not known here."""
+    return BARRIERS[name].unit if name in BARRIERS else "m"
+
+
+def _plot_margins(axis: Axes, series: AssistantSeries, unit: str, names: Sequence[str]) -> bool:
+    """Draw the margins of barriers of one unit; true where one falls below zero."""
+    axis.set_ylabel(f"margin [{unit}]")
     draw_limit(axis, 0.0)
     violated = False
-    between = {name: values for name, values in series.h.items() if name != "collision"}
-    for (name, values), (colour, style) in zip(between.items(), cycle(MARGIN_LINES)):
+    for name, (colour, style) in zip(names, cycle(MARGIN_LINES)):
+        values = series.h[name]
         margin = np.where(np.isfinite(values), values, np.nan)
         if not np.isnan(margin).all():
-            label = with_lowest(name, margin)
+            label = with_lowest(name, margin, unit)
             axis.plot(series.time, margin, color=colour, linestyle=style, label=label)
             violated |= mark_violation(axis, series.time, margin, 0.0)
     _legend_above(axis)

@@ -81,6 +81,8 @@ def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=N
         distances=distances,
         velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
+        wrenches=_wrenches(state, order),
+        wrench_sensitivities=_wrench_sensitivities(state, order),
         obstacles=obstacles,
         intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
@@ -114,6 +116,23 @@ def _sensitivities(state, order):
         return None
     shape = (len(state.agents), state.point_count, 3, 3)
     return _reshaped(state.sensitivities, "sensitivities", shape)[order]
+
+
+def _wrenches(state, order):
+    """(C, A, 6) in the scenario's order, or None. Raises MessageError."""
+    if not len(state.wrenches):
+        return None
+    shape = (len(state.displaced_agents), len(state.agents), 6)
+    return _reshaped(state.wrenches, "wrenches", shape)[:, order]
+
+
+def _wrench_sensitivities(state, order):
+    """(A, 6, A, 6) in the scenario's order, or None. Raises MessageError."""
+    if not len(state.wrench_sensitivities):
+        return None
+    agents = len(state.agents)
+    shape = (agents, 6, agents, 6)
+    return _reshaped(state.wrench_sensitivities, "wrench_sensitivities", shape)[order][:, :, order]
 
 
 def to_distances(message) -> Distances:
@@ -203,6 +222,9 @@ def fill_controller_state(message, state, agent, decision):
     ):
         for axis, value in zip("xyz", vector):
             setattr(message, f"{name}_{axis}", float(value))
+    for name in ("orientation_error", "nominal_angular_velocity", "angular_velocity"):
+        for axis in "xyz":
+            setattr(message, f"{name}_{axis}", math.nan)  # grips do not turn
     for name in (
         "error_norm",
         "distance",

@@ -242,6 +242,11 @@ class _ControllerKeys:
         """Names of the barriers in use, in their order."""
         return tuple(name for name in BARRIERS if getattr(self, name) is not None)
 
+    @property
+    def needs_wrenches(self) -> bool:
+        """Whether a barrier in use depends on what the object exerts on the agents."""
+        return any(BARRIERS[name].needs_wrenches for name in self.barriers)
+
 
 def _with_barriers(keys: type) -> type:
     """A class with a field for each barrier's section beside the fields of ``keys``."""

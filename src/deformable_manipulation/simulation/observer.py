@@ -21,6 +21,7 @@ class Observer:
         self._simulation = simulation
         self._distance = distance
         self._exact = copies and scenario.controller.jacobian == "equilibrium"
+        self._wrenches = scenario.controller.needs_wrenches
         self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
 
@@ -32,6 +33,8 @@ class Observer:
         simulation = self._simulation
         points = simulation.points(out=self._points)
         distances = self.distances_of(points)  # moves the obstacles
+        sensitivities = self._sensitivities()
+        known = self._wrenches and sensitivities is not None
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,
@@ -41,7 +44,9 @@ class Observer:
             displacements=simulation.displacements(),
             ready=simulation.ready(),
             distances=distances,
-            sensitivities=self._sensitivities(),
+            sensitivities=sensitivities,
+            wrenches=simulation.wrenches() if self._wrenches else None,
+            wrench_sensitivities=simulation.wrench_response() if known else None,
             obstacles=self._obstacles.poses(),
             intent=intent,
         )
