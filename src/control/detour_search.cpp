@@ -54,6 +54,9 @@ void DetourSearch::start(const ObservationView& observation, int agent, const Ve
   random_.seed(1);
   looks_ = 0;
   way_.clear();
+  if (observation.orientations != nullptr) {  // grips turn, and are to keep them now
+    shapes_->setOrientations(orientationsOf(observation));
+  }
   const double* points = observation.coordinates;
   places_.assign(1, {held_[agent],
                      -1,

@@ -29,6 +29,7 @@ Team commandingAll(const ControllerParameters& p, double length) {
   team.commanded = team.assistants;
   team.max_velocity = 2.0 * p.max_velocity * length;  // of displacements
   team.formulation.anticipation = false;
+  team.turns = false;  // grips are expected to keep their orientations
   return team;
 }
 

@@ -11,7 +11,7 @@ namespace {
 // A load that takes a longer way than this [m] to change by its limit is out of the agents' hands.
 constexpr double LONGEST_WAY = 10.0;
 
-double sumOfSquares(const std::vector<Vector3>& gradients, const std::vector<int>& agents) {
+double sumOfSquares(const std::vector<Vector6>& gradients, const std::vector<int>& agents) {
   double sum = 0.0;
   for (const int agent : agents) {
     sum += gradients[agent].squaredNorm();
@@ -47,14 +47,20 @@ double LoadBarrier::clearance(const PresentState& state, int agent) const {
   return kept ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
 }
 
+//! Where grips do not turn, turns have no part in the gradients.
 void LoadBarrier::addRows(const Features& /*features*/, const PredictedState& state, BarrierRows& rows) const {
   if (!isDifferentiable(state.shape)) {
     return;
   }
   const int loads = count(state.shape);
   for (int item = 0; item < loads; ++item) {
-    std::fill(gradients_.begin(), gradients_.end(), Vector3::Zero());
+    std::fill(gradients_.begin(), gradients_.end(), Vector6::Zero());
     addGradient(state.shape, item, gradients_);
+    for (Vector6& gradient : gradients_) {
+      if (!team_.turns) {
+        gradient.tail<3>().setZero();
+      }
+    }
     addRow(load(state.shape, item), state, rows);
   }
 }
@@ -65,17 +71,26 @@ void LoadBarrier::addRow(double load, const PredictedState& state, BarrierRows& 
   const Vector3& leader_velocity = state.leaderVelocity();
   double rate = 0.0;  // of the load, by the predicted velocities
   for (const int assistant : team_.assistants) {
-    rate += gradients_[assistant].dot(state.velocities[assistant] - leader_velocity);
+    rate += gradients_[assistant].head<3>().dot(state.velocities[assistant] - leader_velocity);
+  }
+  double turning = 0.0;  // of the load, by the leader's turning
+  if (team_.turns) {
+    turning = gradients_[team_.leader].tail<3>().dot(state.angular_velocities[team_.leader]);
+    rate += turning;
+    for (const int assistant : team_.assistants) {
+      rate += gradients_[assistant].tail<3>().dot(state.angular_velocities[assistant]);
+    }
   }
   const double all = sumOfSquares(gradients_, team_.assistants);
   const double own = sumOfSquares(gradients_, team_.commanded);
   const double share = team_.formulation.shares && all > 0.0 ? own / all : 1.0;
   const double h = (1.0 - parameters_.reserve) * parameters_.limit - (load + state.delay * rate);
-  double bound = -share * parameters_.alpha(h);
+  double bound = -share * (parameters_.alpha(h) - turning);
   double reach = 0.0;  // that all velocities together can change it by, per second
   for (const int agent : team_.commanded) {
-    bound -= gradients_[agent].dot(leader_velocity);
-    reach += team_.max_velocity * gradients_[agent].lpNorm<1>();
+    bound -= gradients_[agent].head<3>().dot(leader_velocity);
+    reach += team_.max_velocity * gradients_[agent].head<3>().lpNorm<1>();
+    reach += team_.max_angular_velocity * gradients_[agent].tail<3>().lpNorm<1>();
   }
   if (bound <= -reach) {
     return;
@@ -83,7 +98,11 @@ void LoadBarrier::addRow(double load, const PredictedState& state, BarrierRows& 
   const double scale = 1.0 / std::max(std::sqrt(own), parameters_.limit / LONGEST_WAY);
   auto row = rows.limit(scale * bound);
   for (std::size_t i = 0; i < team_.commanded.size(); ++i) {
-    row.segment<3>(3 * i) = -scale * gradients_[team_.commanded[i]];
+    const Vector6& gradient = gradients_[team_.commanded[i]];
+    row.segment<3>(3 * i) = -scale * gradient.head<3>();
+    if (team_.turns) {
+      row.segment<3>(team_.turnOf(static_cast<int>(i))) = -scale * gradient.tail<3>();
+    }
   }
 }
 

@@ -16,6 +16,7 @@ ObjectShape ShapeObserver::observe(const ObservationView& observation, const Dif
   ObjectShape shape = presentShape(observation);
   if (exact) {
     shape.response = observation.sensitivities;
+    shape.turning = observation.turning_sensitivities;
     shape.wrench_response = observation.wrench_sensitivities;
   } else {
     differences.takeResponse(response_);

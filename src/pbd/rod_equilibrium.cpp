@@ -63,6 +63,7 @@ struct RodEquilibrium::State {
   std::vector<double> present;          // points of all copies as simulated
   std::vector<Vector3> held_positions;  // [copies x holds] m
   bool elsewhere = false;               // whether they are other holds than the simulated ones
+  bool turned = false;                  // see EquilibriumOptions
   int iterations = 0;
 
   void configure(const Rod& rod);
@@ -203,6 +204,7 @@ void RodEquilibrium::updateElsewhere(const Rod& rod, const std::vector<Vector3>&
 
 void RodEquilibrium::State::update(const Rod& rod, int copies, const EquilibriumOptions& options) {
   configure(rod);
+  turned = options.turned;
   iterations = 0;
   status.resize(copies, ResponseStatus::NOT_CONVERGED);
   first_position.resize(copies);
@@ -321,7 +323,7 @@ void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   std::vector<double> orientations(4 * parameters.segments);
   rod.orientations(elsewhere ? 0 : copy, orientations.data());
   for (int i = 0; i < parameters.segments; ++i) {
-    if (elsewhere || !clamped[i]) {  // clamped ones are where they are held
+    if (!clamped[i] || (elsewhere && !turned)) {  // clamped ones are where they are held
       setOrientation(i, slot, &orientations[4 * i]);
     }
   }

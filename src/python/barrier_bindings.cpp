@@ -41,22 +41,23 @@ struct BoundShape {
 };
 
 BoundShape makeShape(int agents, const py::array& points, const py::object& response, const py::object& wrenches,
-                     const py::object& wrench_response) {
+                     const py::object& wrench_response, const py::object& turning) {
   BoundShape bound;
   const py::ssize_t count = points.ndim() == 2 ? points.shape(0) : 0;
   bound.view.agents = agents;
   bound.view.points = static_cast<int>(count);
   bound.view.coordinates = bound.take(points, {count, 3}, "points");
   bound.view.response = bound.take(response, {agents, count, 3, 3}, "response");
+  bound.view.turning = bound.take(turning, {agents, count, 3, 3}, "turning");
   bound.view.wrenches = bound.take(wrenches, {agents, 6}, "wrenches");
   bound.view.wrench_response = bound.take(wrench_response, {agents, 6, agents, 6}, "wrench_response");
   return bound;
 }
 
-//! A barrier with the number of assistants whose velocities its rows are of.
+//! A barrier with the number of variables of its rows.
 struct BoundBarrier {
   std::unique_ptr<Barrier> barrier;
-  int commanded;
+  int variables;
 };
 
 BoundBarrier makeBarrier(const std::string& name, const py::dict& parameters, const Team& team) {
@@ -66,15 +67,14 @@ BoundBarrier makeBarrier(const std::string& name, const py::dict& parameters, co
   }
   const ParameterValue value = toParameterValue(parameters);
   deformable_manipulation::pbd::ParameterCheck check;
-  BoundBarrier bound{maker->second(ParameterSection(value, name, check), team),
-                     static_cast<int>(team.commanded.size())};
+  BoundBarrier bound{maker->second(ParameterSection(value, name, check), team), team.variables()};
   check.throwIfAny();
   return bound;
 }
 
 ConstraintRows rowsOf(const BoundBarrier& bound, const Features& features, const PredictedState& state) {
   ConstraintRows rows;
-  rows.clear(3 * bound.commanded);
+  rows.clear(bound.variables);
   BarrierRows own(rows, 0, 1);
   bound.barrier->addRows(features, state, own);
   return rows;
@@ -109,29 +109,35 @@ void bindBarriers(py::module_& module) {
   py::class_<Team>(
       module, "Team",
       "Who is commanded by one program: number of agents, indices of the leader, of all assistants and of\n"
-      "the commanded ones, max_velocity [m/s], formulation.")
+      "the commanded ones, max_velocity [m/s], formulation; max_angular_velocity [rad/s] of grips that turn, 0: they\n"
+      "do not.")
       .def(py::init([](int agents, int leader, std::vector<int> assistants, std::vector<int> commanded,
-                       double max_velocity, const Formulation& formulation) {
-             return Team{agents, leader, std::move(assistants), std::move(commanded), max_velocity, formulation};
+                       double max_velocity, const Formulation& formulation, double max_angular_velocity) {
+             return Team{agents,       leader,      std::move(assistants),      std::move(commanded),
+                         max_velocity, formulation, max_angular_velocity > 0.0, max_angular_velocity};
            }),
            py::kw_only(), py::arg("agents"), py::arg("leader"), py::arg("assistants"), py::arg("commanded"),
-           py::arg("max_velocity"), py::arg("formulation"));
+           py::arg("max_velocity"), py::arg("formulation"), py::arg("max_angular_velocity") = 0.0);
   py::class_<PredictedState>(module, "PredictedState",
                              "Predicted motion of A agents: positions (A, 3) [m] when the command acts, velocities\n"
                              "(A, 3) [m/s], index of the leader, delay [s].")
-      .def(py::init([](std::vector<Vector3> positions, std::vector<Vector3> velocities, int leader, double delay) {
-             return PredictedState{std::move(positions), std::move(velocities), leader, delay};
+      .def(py::init([](std::vector<Vector3> positions, std::vector<Vector3> velocities, int leader, double delay,
+                       std::vector<Vector3> angular_velocities) {
+             return PredictedState{std::move(positions), std::move(velocities), std::move(angular_velocities), leader,
+                                   delay};
            }),
-           py::arg("positions"), py::arg("velocities"), py::arg("leader") = 0, py::arg("delay") = 0.0)
+           py::arg("positions"), py::arg("velocities"), py::arg("leader") = 0, py::arg("delay") = 0.0,
+           py::arg("angular_velocities") = std::vector<Vector3>())
       .def(
           "set_shape", [](PredictedState& state, const BoundShape& shape) { state.shape = shape.view; },
           py::keep_alive<1, 2>(), py::arg("shape"), "The ObjectShape that loads depend on.");
   py::class_<BoundShape>(
       module, "ObjectShape",
       "Points (P, 3) [m] of an object held by A agents, and what is known of: response (A, P, 3, 3),\n"
-      "wrenches (A, 6) [N, N m], wrench_response (A, 6, A, 6). Raises ValueError.")
+      "wrenches (A, 6) [N, N m], wrench_response (A, 6, A, 6), turning (A, P, 3, 3) [m/rad]. Raises "
+      "ValueError.")
       .def(py::init(&makeShape), py::arg("agents"), py::arg("points"), py::arg("response") = py::none(),
-           py::arg("wrenches") = py::none(), py::arg("wrench_response") = py::none());
+           py::arg("wrenches") = py::none(), py::arg("wrench_response") = py::none(), py::arg("turning") = py::none());
   py::class_<BoundBarrier>(module, "Barrier",
                            "A barrier by its name, with the parameters (dict) of its section, for a Team. Raises\n"
                            "ValueError.")

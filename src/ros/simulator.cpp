@@ -144,6 +144,9 @@ void Simulator::publish() {
   if (scenario_.exact_response) {
     addResponse();
   }
+  if (scenario_.turns) {
+    fillTurningSensitivities(simulation_, state_);
+  }
   if (scenario_.wrenches) {
     fillWrenches(simulation_, state_);
   }

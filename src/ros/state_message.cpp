@@ -83,6 +83,13 @@ pbd::ResponseStatus fillSensitivities(pbd::Simulation& simulation, ObjectState& 
   return status;
 }
 
+void fillTurningSensitivities(const pbd::Simulation& simulation, ObjectState& message) {
+  message.turning_sensitivities.resize(message.sensitivities.size());
+  if (message.sensitivities.empty() || !simulation.turningResponse(message.turning_sensitivities.data())) {
+    message.turning_sensitivities.clear();
+  }
+}
+
 void fillWrenches(const pbd::Simulation& simulation, ObjectState& message) {
   const std::size_t agents = simulation.agents().size();
   message.wrenches.resize(6 * agents * simulation.body().copyCount());

@@ -37,6 +37,11 @@ class Gradients {
   //! Whether those of an agent are known.
   bool known(int agent) const { return exact_ || differences_.known(agent); }
 
+  //! Whether it is known how the object follows turns of its grips.
+  bool knowsTurns(const ObservationView& observation) const {
+    return exact_ && observation.turning_sensitivities != nullptr;
+  }
+
   //! How the object's points follow its held points, as far as the observation tells.
   //! @return [A x P x 3 x 3] valid until the next call
   const std::vector<double>& response(const ObservationView& observation);

@@ -16,7 +16,7 @@ class GripBarrier final : public LoadBarrier {
  protected:
   int count(const ObjectShape& shape) const override { return shape.wrenches != nullptr ? shape.agents : 0; }
   double load(const ObjectShape& shape, int agent) const override;
-  void addGradient(const ObjectShape& shape, int agent, std::vector<Vector3>& gradients) const override;
+  void addGradient(const ObjectShape& shape, int agent, std::vector<Vector6>& gradients) const override;
   bool concerns(int item, int agent) const override { return item == agent || item == team().leader; }
   bool isDifferentiable(const ObjectShape& shape) const override { return shape.wrench_response != nullptr; }
 

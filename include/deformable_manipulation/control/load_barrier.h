@@ -40,8 +40,8 @@ class LoadBarrier : public Barrier {
   //! A load.
   virtual double load(const ObjectShape& shape, int item) const = 0;
 
-  //! Adds the derivative of a load by each held point to the gradients [A].
-  virtual void addGradient(const ObjectShape& shape, int item, std::vector<Vector3>& gradients) const = 0;
+  //! Adds the derivative of a load by each held point, and by turns about it, to the gradients [A].
+  virtual void addGradient(const ObjectShape& shape, int item, std::vector<Vector6>& gradients) const = 0;
 
   //! Whether a load is one that an agent has to do with.
   virtual bool concerns(int item, int agent) const;
@@ -56,7 +56,7 @@ class LoadBarrier : public Barrier {
 
   LoadParameters parameters_;
   Team team_;
-  mutable std::vector<Vector3> gradients_;  // [A] reused: nothing is allocated in a cycle
+  mutable std::vector<Vector6> gradients_;  // [A] by held points and turns; reused: nothing is allocated in a cycle
 };
 
 }  // namespace control

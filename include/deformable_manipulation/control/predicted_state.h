@@ -12,8 +12,9 @@ namespace control {
 //! The command computed from state k acts from state k + 1 on, or later if the answer is late. Until then, for `delay`
 //! seconds, the commanded agent moves with its previous command and the others with their measured velocities.
 struct PredictedState {
-  std::vector<Vector3> positions;   //!< [A] m, held points when the command begins to act
-  std::vector<Vector3> velocities;  //!< [A] m/s, from state k to then; expected to last
+  std::vector<Vector3> positions;                //!< [A] m, held points when the command begins to act
+  std::vector<Vector3> velocities;               //!< [A] m/s, from state k to then; expected to last
+  std::vector<Vector3> angular_velocities = {};  //!< [A] rad/s, likewise; empty: grips do not turn
   int leader = 0;
   double delay = 0.0;      //!< [s] from state k to then
   ObjectShape shape = {};  //!< of the object in state k

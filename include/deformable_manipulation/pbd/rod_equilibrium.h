@@ -13,6 +13,7 @@ namespace pbd {
 struct EquilibriumOptions {
   double tolerance = 1e-5;  //!< of the last step, turns [rad] and relative forces; the error left is about its square
   int iterations = 20;      //!< at most, per start
+  bool turned = false;      //!< updateElsewhere(): clamped segments may be turned against the rod's present shape
 };
 
 //! The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with

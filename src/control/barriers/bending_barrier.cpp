@@ -17,7 +17,7 @@ double BendingBarrier::load(const ObjectShape& shape, int joint) const {
 }
 
 //! The angle grows as a segment's end moves across it, away from the other segment, over the segment's length.
-void BendingBarrier::addGradient(const ObjectShape& shape, int joint, std::vector<Vector3>& gradients) const {
+void BendingBarrier::addGradient(const ObjectShape& shape, int joint, std::vector<Vector6>& gradients) const {
   const Vector3 before = shape.point(joint + 1) - shape.point(joint);
   const Vector3 after = shape.point(joint + 2) - shape.point(joint + 1);
   const Vector3 normal = before.cross(after);

@@ -14,7 +14,7 @@ double StrainBarrier::load(const ObjectShape& shape, int edge) const {
   return (shape.point(e.second) - shape.point(e.first)).norm() / e.length - 1.0;
 }
 
-void StrainBarrier::addGradient(const ObjectShape& shape, int edge, std::vector<Vector3>& gradients) const {
+void StrainBarrier::addGradient(const ObjectShape& shape, int edge, std::vector<Vector6>& gradients) const {
   const Edge& e = edges_[edge];
   const Vector3 along = (shape.point(e.second) - shape.point(e.first)).normalized() / e.length;
   shape.addPointGradient(e.first, -along, gradients);

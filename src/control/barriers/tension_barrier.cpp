@@ -22,7 +22,7 @@ double TensionBarrier::load(const ObjectShape& shape, int joint) const {
   return force(shape, joint).dot((shape.point(joint + 2) - shape.point(joint)).normalized());
 }
 
-void TensionBarrier::addGradient(const ObjectShape& shape, int joint, std::vector<Vector3>& gradients) const {
+void TensionBarrier::addGradient(const ObjectShape& shape, int joint, std::vector<Vector6>& gradients) const {
   const Vector3 along = shape.point(joint + 2) - shape.point(joint);
   const Vector3 tangent = along.normalized();
   const Vector3 pull = force(shape, joint);

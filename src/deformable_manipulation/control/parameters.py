@@ -45,6 +45,7 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
         "own": [commanded.index(index) for index in own],
         "references": starts[commanded] - starts[leader],
         "places": starts - starts[leader],
+        "orientations": [list(agent.orientation) for agent in scenario.agents],
         "cycle_time": scenario.cycle_time,
         "safety": safety,
         "barriers": list(scenario.controller.barriers),

@@ -92,7 +92,8 @@ class Team:
         with self._lock:
             if not self._stopped:
                 for link in self._links:
-                    link.command(state, decisions[link.name].command)
+                    decision = decisions[link.name]
+                    link.command(state, decision.command, decision.angular_command)
 
     def report(self, state, observation, decisions):
         """Tell everybody else, who is in no hurry."""

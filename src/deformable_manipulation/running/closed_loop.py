@@ -107,7 +107,8 @@ class ClosedLoop:
         simulation.set_command(leader, leader_velocity)
         for index in self._scenario.assistants:
             name = self._scenario.agents[index].name
-            simulation.set_command(index, decisions[name].command)
+            decision = decisions[name]
+            simulation.set_command(index, decision.command, decision.angular_command)
         advanced = time.perf_counter()
 
         return CycleRecord(

@@ -28,6 +28,7 @@ COORDINATED = "coordinated"
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
 FULL, PAPER = "full", "paper"
+FIXED, FOLLOW, FREE = "fixed", "follow", "free"
 
 # Less would be rounding in the differences between copies, one of which may be at a quarter of it.
 _SMALLEST_PERTURBATION = 1e-5  # m
@@ -144,6 +145,43 @@ class _ControllerKeys:
         live=Live(("max_jerk",), 0.1, 1e6),
         native=True,
     )
+    orientation: str = parameter(
+        Choice(FIXED, FOLLOW, FREE),
+        "What the assistants' grips do about their orientations. `fixed`: they keep them. "
+        "`follow`: the formation turns with the leader, places and grips. `free`: they want to "
+        "keep them, and turn where that serves the limits. See "
+        "[mathematics.md](mathematics.md#grips-that-turn).",
+        default=FIXED,
+        paper=FIXED,
+        allowed="`fixed` for fabrics, grips that are `pinned`, and `jacobian: perturbed_copies`",
+        native=True,
+    )
+    turning_gain: float = parameter(
+        Number("1/s", above=0.0, at_most=100.0),
+        "How fast a grip turns back to the orientation that it wants.",
+        default=0.5,
+        native=True,
+    )
+    turning_weights: Vector = parameter(
+        vector("m", at_least=1e-6, at_most=1e6),
+        "Cost of leaving the nominal angular velocity, per axis, beside `weights`: the length over "
+        "which turning by 1 rad costs as much as moving. Lower it to let grips turn before they "
+        "give way.",
+        default=(0.3, 0.3, 0.3),
+        native=True,
+    )
+    max_angular_velocity: float = parameter(
+        Number("rad/s", above=0.0, at_most=10.0),
+        "Bound on every component of the commanded angular velocity. Use the robot's limit.",
+        default=0.5,
+        native=True,
+    )
+    max_angular_acceleration: float = parameter(
+        Number("rad/s^2", above=0.0, at_most=1000.0),
+        "Bound on every component of its change. Use the robot's limit.",
+        default=2.0,
+        native=True,
+    )
     smoothing: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
         "Time constant with which the deviation from the nominal velocity changes where the limits "
@@ -243,6 +281,11 @@ class _ControllerKeys:
         return tuple(name for name in BARRIERS if getattr(self, name) is not None)
 
     @property
+    def turns(self) -> bool:
+        """Whether grips turn."""
+        return self.orientation != FIXED
+
+    @property
     def needs_wrenches(self) -> bool:
         """Whether a barrier in use depends on what the object exerts on the agents."""
         return any(BARRIERS[name].needs_wrenches for name in self.barriers)
@@ -285,6 +328,44 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)
+
+
+def check_orientation(report: Report, spec, agents, controller: ControllerSpec, knowledge) -> None:
+    """Grips that are to turn can."""
+    path = ("controller", "orientation")
+    if not controller.turns:
+        return
+    if not spec.has_joints:
+        report.add(
+            path,
+            f"must be {FIXED}: a grip holds one vertex of a {spec.type} and cannot turn it",
+            controller.orientation,
+        )
+        return
+    if not knowledge.sees_object:
+        report.add(
+            path,
+            f"must be {FIXED} with imperfect knowledge, whose model does not follow turned grips",
+            controller.orientation,
+        )
+    turning = [
+        each for each in agents if each.role == "assistant" or controller.orientation == FOLLOW
+    ]
+    pinned = [agent.name for agent in turning if agent.hold == "pinned"]
+    if pinned:
+        report.add(
+            path,
+            f"must be {FIXED}, as a pinned grip turns nothing: {', '.join(pinned)}. Use hold: "
+            "clamped to turn the object",
+            controller.orientation,
+        )
+    if controller.jacobian != "equilibrium":
+        report.add(
+            path,
+            f"must be {FIXED} with jacobian: {controller.jacobian}: copies do not tell how the "
+            "object follows a turn. Use jacobian: equilibrium",
+            controller.orientation,
+        )
 
 
 def check_priority(report: Report, controller: ControllerSpec) -> None:

@@ -137,6 +137,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
     check(controller.check_priority, "controller")
+    check(controller.check_orientation, "object", "agents", "controller", "knowledge")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")

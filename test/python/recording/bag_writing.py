@@ -70,7 +70,7 @@ class BagWriter:
             for axis, number in zip("xyz", getattr(decision, attribute))
         }
         for field in ("orientation_error", "nominal_angular_velocity", "angular_velocity"):
-            values.update({f"{field}_{axis}": np.nan for axis in "xyz"})  # grips do not turn
+            values.update({f"{field}_{axis}": 0.0 for axis in "xyz"})
         for field in (
             "distance exact_jacobian leader_drift rows solve_time computation_time error_norm "
             "enabled coordinated"

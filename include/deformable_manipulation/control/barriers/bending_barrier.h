@@ -17,7 +17,7 @@ class BendingBarrier final : public LoadBarrier {
  protected:
   int count(const ObjectShape& shape) const override { return shape.coordinates != nullptr ? shape.points - 2 : 0; }
   double load(const ObjectShape& shape, int joint) const override;
-  void addGradient(const ObjectShape& shape, int joint, std::vector<Vector3>& gradients) const override;
+  void addGradient(const ObjectShape& shape, int joint, std::vector<Vector6>& gradients) const override;
   bool isDifferentiable(const ObjectShape& shape) const override { return shape.response != nullptr; }
 
  private:

@@ -23,7 +23,7 @@ class StrainBarrier final : public LoadBarrier {
  protected:
   int count(const ObjectShape& shape) const override;
   double load(const ObjectShape& shape, int edge) const override;
-  void addGradient(const ObjectShape& shape, int edge, std::vector<Vector3>& gradients) const override;
+  void addGradient(const ObjectShape& shape, int edge, std::vector<Vector6>& gradients) const override;
   bool isDifferentiable(const ObjectShape& shape) const override { return shape.response != nullptr; }
 
  private:

@@ -23,7 +23,7 @@ class TensionBarrier final : public LoadBarrier {
     return shape.coordinates != nullptr && shape.wrenches != nullptr ? shape.points - 2 : 0;
   }
   double load(const ObjectShape& shape, int joint) const override;
-  void addGradient(const ObjectShape& shape, int joint, std::vector<Vector3>& gradients) const override;
+  void addGradient(const ObjectShape& shape, int joint, std::vector<Vector6>& gradients) const override;
   bool isDifferentiable(const ObjectShape& shape) const override {
     return shape.response != nullptr && shape.wrench_response != nullptr;
   }
