@@ -54,14 +54,15 @@ def plot_controller(
 
     Panels over a shared time axis: distance to the obstacle with its limit, norm of the tracking
     error, margins of the other barriers in a panel for each unit, and every moving component of
-    the nominal and the commanded velocity. Shading shows what the safety filter did. Violations of
-    a limit are filled and marked at their worst.
+    the nominal and the commanded velocity and angular velocity. Shading shows what the safety
+    filter did. Violations of a limit are filled and marked at their worst.
 
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
     components = _moving_components(series)
+    turns = _turning_components(series)
     units = _units(series)
-    panels = 2 + len(units) + len(components)
+    panels = 2 + len(units) + len(components) + len(turns)
     with rc_context(STYLE):
         figure = figure if figure is not None else Figure()
         figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
@@ -76,6 +77,8 @@ def plot_controller(
         velocities = axes[2 + len(units) :]
         for axis, component in zip(velocities, components):
             _plot_velocity(axis, series, component)
+        for axis, component in zip(velocities[len(components) :], turns):
+            _plot_turning(axis, series, component)
         _legend_above(velocities[0])
         _finish_figure(figure, axes, run, series, violated)
     return figure
@@ -141,6 +144,13 @@ def _plot_velocity(axis: Axes, series: AssistantSeries, component: int) -> None:
     axis.plot(series.time, nominal, color=ORANGE, linestyle="--", label="nominal")
 
 
+def _plot_turning(axis: Axes, series: AssistantSeries, component: int) -> None:
+    axis.set_ylabel(f"turning {AXES[component]} [rad/s]")
+    axis.plot(series.time, series.angular_velocity[:, component], color=BLUE)
+    nominal = series.nominal_angular_velocity[:, component]
+    axis.plot(series.time, nominal, color=ORANGE, linestyle="--")
+
+
 def _legend_above(axis: Axes) -> None:
     legend_above(axis, *axis.get_legend_handles_labels())
 
@@ -170,6 +180,16 @@ def _intervals(time: np.ndarray, active: np.ndarray) -> List[Tuple[float, float]
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     ends = np.minimum(ends, len(time) - 1)
     return [(time[start], time[end] - time[start]) for start, end in zip(starts, ends)]
+
+
+def _turning_components(series: AssistantSeries) -> List[int]:
+    """Axes about which the grip turns or would; none of one that does not."""
+    if series.angular_velocity is None:
+        return []
+    turning = np.nan_to_num(
+        np.concatenate((series.nominal_angular_velocity, series.angular_velocity))
+    )
+    return list(np.flatnonzero(np.abs(turning).max(axis=0) > MOVING))
 
 
 def _moving_components(series: AssistantSeries) -> List[int]:

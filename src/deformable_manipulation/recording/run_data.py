@@ -22,11 +22,14 @@ class AssistantSeries:
     time: np.ndarray  # (M,) s, 0 at cycle 0
     distance: np.ndarray  # (M,) m, of the object itself; inf: no obstacle
     error_norm: np.ndarray  # (M,) m
-    h: Mapping[str, np.ndarray]  # (M,) m, the lowest of each barrier, by name
+    h: Mapping[str, np.ndarray]  # (M,) the lowest of each barrier, by name, in its unit
     nominal_velocity: np.ndarray  # (M, 3) m/s
     command: np.ndarray  # (M, 3) m/s
     target: np.ndarray  # (M, 3) m, the place that it would keep
     status: np.ndarray  # (M,) int, the constants of ControllerState
+    # (M, 3) rad/s; None: grips do not turn
+    nominal_angular_velocity: Optional[np.ndarray] = None
+    angular_velocity: Optional[np.ndarray] = None
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,7 @@ def make_assistant_series(
     status = columns["status"]
     if not np.all(np.isfinite(status)):
         raise RunDataError(f"the status of {agent} has values that are not numbers")
+    turns = np.isfinite(columns.get(vector_columns(NOMINAL_TURNING)[0], np.nan)).any()
     return AssistantSeries(
         agent=agent,
         time=time,
@@ -75,9 +79,14 @@ def make_assistant_series(
         command=_stack(columns, "command"),
         target=_stack(columns, "target"),
         status=status.astype(int),
+        nominal_angular_velocity=_stack(columns, NOMINAL_TURNING) if turns else None,
+        angular_velocity=_stack(columns, TURNING) if turns else None,
     )
 
 
+NOMINAL_TURNING, TURNING = "nominal_angular_velocity", "angular_velocity"
+# Columns that only assistants have whose grips turn.
+TURNING_SERIES_COLUMNS = vector_columns(NOMINAL_TURNING) + vector_columns(TURNING)
 H_PREFIX = "h_"  # of the columns with the barriers' values
 
 # Columns of an assistant in the time series that make_assistant_series needs, beside those.
