@@ -60,9 +60,9 @@ def plot_controller(
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
     components = _moving_components(series)
-    turns = _turning_components(series)
+    turning = _turning_components(series)
     units = _units(series)
-    panels = 2 + len(units) + len(components) + len(turns)
+    panels = 2 + len(units) + len(components) + len(turning)
     with rc_context(STYLE):
         figure = figure if figure is not None else Figure()
         figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
@@ -77,8 +77,8 @@ def plot_controller(
         velocities = axes[2 + len(units) :]
         for axis, component in zip(velocities, components):
             _plot_velocity(axis, series, component)
-        for axis, component in zip(velocities[len(components) :], turns):
-            _plot_turning(axis, series, component)
+        for axis, (name, nominal, command) in zip(velocities[len(components) :], turning):
+            _plot_turning(axis, series.time, name, nominal, command)
         _legend_above(velocities[0])
         _finish_figure(figure, axes, run, series, violated)
     return figure
@@ -144,11 +144,12 @@ def _plot_velocity(axis: Axes, series: AssistantSeries, component: int) -> None:
     axis.plot(series.time, nominal, color=ORANGE, linestyle="--", label="nominal")
 
 
-def _plot_turning(axis: Axes, series: AssistantSeries, component: int) -> None:
-    axis.set_ylabel(f"turning {AXES[component]} [rad/s]")
-    axis.plot(series.time, series.angular_velocity[:, component], color=BLUE)
-    nominal = series.nominal_angular_velocity[:, component]
-    axis.plot(series.time, nominal, color=ORANGE, linestyle="--")
+def _plot_turning(
+    axis: Axes, time: np.ndarray, name: str, nominal: np.ndarray, command: np.ndarray
+) -> None:
+    axis.set_ylabel(f"turning {name} [rad/s]")
+    axis.plot(time, command, color=BLUE)
+    axis.plot(time, nominal, color=ORANGE, linestyle="--")
 
 
 def _legend_above(axis: Axes) -> None:
@@ -182,14 +183,18 @@ def _intervals(time: np.ndarray, active: np.ndarray) -> List[Tuple[float, float]
     return [(time[start], time[end] - time[start]) for start, end in zip(starts, ends)]
 
 
-def _turning_components(series: AssistantSeries) -> List[int]:
-    """Axes about which the grip turns or would; none of one that does not."""
-    if series.angular_velocity is None:
+def _turning_components(
+    series: AssistantSeries,
+) -> List[Tuple[str, np.ndarray, np.ndarray]]:
+    """Each axis about which the grip turns or would, with both velocities (M,) [rad/s]."""
+    if series.turning is None:
         return []
-    turning = np.nan_to_num(
-        np.concatenate((series.nominal_angular_velocity, series.angular_velocity))
-    )
-    return list(np.flatnonzero(np.abs(turning).max(axis=0) > MOVING))
+    components = zip(AXES, series.turning.nominal.T, series.turning.command.T)
+    return [
+        (name, nominal, command)
+        for name, nominal, command in components
+        if np.abs(np.nan_to_num(np.concatenate((nominal, command)))).max() > MOVING
+    ]
 
 
 def _moving_components(series: AssistantSeries) -> List[int]:

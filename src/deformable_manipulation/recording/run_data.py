@@ -15,6 +15,14 @@ class RunDataError(Exception):
 
 
 @dataclass(frozen=True)
+class TurningSeries:
+    """How the grip of an assistant turned, M samples."""
+
+    nominal: np.ndarray  # (M, 3) rad/s
+    command: np.ndarray  # (M, 3) rad/s
+
+
+@dataclass(frozen=True)
 class AssistantSeries:
     """What the controller of one assistant saw and decided, M samples; nan: unknown then."""
 
@@ -27,9 +35,7 @@ class AssistantSeries:
     command: np.ndarray  # (M, 3) m/s
     target: np.ndarray  # (M, 3) m, the place that it would keep
     status: np.ndarray  # (M,) int, the constants of ControllerState
-    # (M, 3) rad/s; None: grips do not turn
-    nominal_angular_velocity: Optional[np.ndarray] = None
-    angular_velocity: Optional[np.ndarray] = None
+    turning: Optional[TurningSeries] = None  # None: grips do not turn
 
 
 @dataclass(frozen=True)
@@ -64,7 +70,6 @@ def make_assistant_series(
     status = columns["status"]
     if not np.all(np.isfinite(status)):
         raise RunDataError(f"the status of {agent} has values that are not numbers")
-    turns = np.isfinite(columns.get(vector_columns(NOMINAL_TURNING)[0], np.nan)).any()
     return AssistantSeries(
         agent=agent,
         time=time,
@@ -79,8 +84,7 @@ def make_assistant_series(
         command=_stack(columns, "command"),
         target=_stack(columns, "target"),
         status=status.astype(int),
-        nominal_angular_velocity=_stack(columns, NOMINAL_TURNING) if turns else None,
-        angular_velocity=_stack(columns, TURNING) if turns else None,
+        turning=_turning(columns),
     )
 
 
@@ -96,6 +100,15 @@ SERIES_COLUMNS = (
     + vector_columns("command")
     + vector_columns("target")
 )
+
+
+def _turning(columns: Mapping[str, np.ndarray]) -> Optional[TurningSeries]:
+    """None without its columns, and where nothing is known in them."""
+    if not all(name in columns for name in TURNING_SERIES_COLUMNS):
+        return None
+    nominal = _stack(columns, NOMINAL_TURNING)
+    known = np.isfinite(nominal).any()
+    return TurningSeries(nominal, _stack(columns, TURNING)) if known else None
 
 
 def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:
