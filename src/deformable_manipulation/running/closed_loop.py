@@ -130,7 +130,9 @@ class ClosedLoop:
 
     def _margins(self) -> Dict[str, Dict[str, float]]:
         """The present h of each barrier, of all assistants by their names."""
-        observation = self._observer.observe()
+        # Without the response: looking for it once more would change the run by rounding.
+        observer = Observer(self._scenario, self._simulation, self._distance, False)
+        observation = observer.observe()
         return {
             name: controller.margins(name, observation)
             for controller in self._controllers
