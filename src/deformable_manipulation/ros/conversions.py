@@ -314,6 +314,17 @@ def to_twist(message, state, velocity, angular=(0.0, 0.0, 0.0)):
     return message
 
 
+def to_measured_wrench(message, scenario):
+    """Arguments of ``WrenchWatch.measured`` from a ``WrenchStamped``, but for the name."""
+    frame = message.header.frame_id
+    return dict(
+        stamp=message.header.stamp.to_sec(),
+        force=_vector(message.wrench.force),
+        torque=_vector(message.wrench.torque),
+        problem="" if frame == scenario.frame else f"is in the frame '{frame}'",
+    )
+
+
 def fill_intent(message, state, agent, intent):
     """Write how an assistant goes on from a state into an ``AssistantIntent`` message."""
     message.header = state.header

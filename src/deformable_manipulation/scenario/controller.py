@@ -23,12 +23,13 @@ from deformable_manipulation.reading.readers import (
 )
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.horizon import HORIZON, HorizonSpec
+from deformable_manipulation.scenario.orientation import FIXED, FOLLOW, FREE
+from deformable_manipulation.scenario.wrench_watch import WRENCH_WATCH, WrenchWatchSpec
 
 COORDINATED = "coordinated"
 DECENTRALISED = "decentralised"
 CENTRALISED = "centralised"
 FULL, PAPER = "full", "paper"
-FIXED, FOLLOW, FREE = "fixed", "follow", "free"
 
 # Less would be rounding in the differences between copies, one of which may be at a quarter of it.
 _SMALLEST_PERTURBATION = 1e-5  # m
@@ -275,6 +276,14 @@ class _ControllerKeys:
         default=0.2,
     )
 
+    wrench_watch: Optional[WrenchWatchSpec] = parameter(
+        WRENCH_WATCH,
+        "Stops an assistant whose force sensor, on `<assistant>/measured_wrench`, does not measure "
+        "what the model says. See [real_robot.md](real_robot.md#force-sensors). Under ROS only.",
+        default=None,
+        default_text="none: no force sensors",
+    )
+
     @property
     def barriers(self) -> Tuple[str, ...]:
         """Names of the barriers in use, in their order."""
@@ -287,8 +296,9 @@ class _ControllerKeys:
 
     @property
     def needs_wrenches(self) -> bool:
-        """Whether a barrier in use depends on what the object exerts on the agents."""
-        return any(BARRIERS[name].needs_wrenches for name in self.barriers)
+        """Whether something in use depends on what the object exerts on the agents."""
+        of_barriers = any(BARRIERS[name].needs_wrenches for name in self.barriers)
+        return of_barriers or self.wrench_watch is not None
 
 
 def _with_barriers(keys: type) -> type:
@@ -328,44 +338,6 @@ def for_object(controller: ControllerSpec, spec) -> ControllerSpec:
     if controller.priority is None:
         filled["priority"] = controller.barriers
     return dataclasses.replace(controller, **filled)
-
-
-def check_orientation(report: Report, spec, agents, controller: ControllerSpec, knowledge) -> None:
-    """Grips that are to turn can."""
-    path = ("controller", "orientation")
-    if not controller.turns:
-        return
-    if not spec.has_joints:
-        report.add(
-            path,
-            f"must be {FIXED}: a grip holds one vertex of a {spec.type} and cannot turn it",
-            controller.orientation,
-        )
-        return
-    if not knowledge.sees_object:
-        report.add(
-            path,
-            f"must be {FIXED} with imperfect knowledge, whose model does not follow turned grips",
-            controller.orientation,
-        )
-    turning = [
-        each for each in agents if each.role == "assistant" or controller.orientation == FOLLOW
-    ]
-    pinned = [agent.name for agent in turning if agent.hold == "pinned"]
-    if pinned:
-        report.add(
-            path,
-            f"must be {FIXED}, as a pinned grip turns nothing: {', '.join(pinned)}. Use hold: "
-            "clamped to turn the object",
-            controller.orientation,
-        )
-    if controller.jacobian != "equilibrium":
-        report.add(
-            path,
-            f"must be {FIXED} with jacobian: {controller.jacobian}: copies do not tell how the "
-            "object follows a turn. Use jacobian: equilibrium",
-            controller.orientation,
-        )
 
 
 def check_priority(report: Report, controller: ControllerSpec) -> None:
