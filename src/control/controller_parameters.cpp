@@ -14,6 +14,8 @@ Team readTeam(const ParameterSection& controller, const ParameterSection& team) 
   result.commanded = team.integers("commanded");
   result.max_velocity = controller.number("max_velocity");
   result.formulation = Formulation::read(controller);
+  result.turns = controller.text("orientation") != "fixed";
+  result.max_angular_velocity = controller.number("max_angular_velocity");
   return result;
 }
 
@@ -55,6 +57,18 @@ ControllerParameters ControllerParameters::read(const ParameterSection& controll
   p.max_velocity = controller.number("max_velocity");
   p.max_acceleration = controller.number("max_acceleration");
   p.max_jerk = controller.number("max_jerk");
+  p.orientation = controller.choice<OrientationMode>(
+      "orientation",
+      {{"fixed", OrientationMode::FIXED}, {"follow", OrientationMode::FOLLOW}, {"free", OrientationMode::FREE}});
+  p.turning_gain = controller.number("turning_gain");
+  p.turning_weights = controller.vector<3>("turning_weights");
+  p.max_angular_acceleration = controller.number("max_angular_acceleration");
+  const Eigen::MatrixXd orientations = team.matrix("orientations");
+  for (Eigen::Index agent = 0; agent < orientations.rows() && orientations.cols() == 4; ++agent) {
+    p.orientations.push_back(pbd::Quaternion(Eigen::Vector4d(orientations.row(agent))).normalized());
+  }
+  team.check().require(static_cast<int>(p.orientations.size()) == team.integer("agents"), team.pathOf("orientations"),
+                       static_cast<double>(p.orientations.size()), "a quaternion x, y, z, w per agent");
   p.smoothing = controller.number("smoothing");
   p.disturbance_filter = controller.number("disturbance_filter");
   p.timeout = controller.number("timeout");

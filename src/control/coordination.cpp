@@ -26,6 +26,9 @@ void take(const AssistantIntent& told, const std::optional<double>& answered, Te
     member.command = told.command;
     member.acceleration = told.acceleration;
     member.departure = told.departure;
+    member.turn.command = told.angular_command;
+    member.turn.acceleration = told.angular_acceleration;
+    member.turn.departure = told.angular_departure;
   }
   member.enabled = told.follows;
   member.reference = told.reference;

@@ -54,6 +54,9 @@ void DetourSearch::start(const ObservationView& observation, int agent, const Ve
   random_.seed(1);
   looks_ = 0;
   way_.clear();
+  if (observation.orientations != nullptr) {  // grips turn, and are to keep them now
+    shapes_->setOrientations(orientationsOf(observation));
+  }
   const double* points = observation.coordinates;
   places_.assign(1, {held_[agent],
                      -1,
@@ -188,6 +191,9 @@ bool DetourSearch::isPossible(const Place& before, const Place& after) const {
   }
   PresentState state{held_, after.distance};
   state.positions[agent_] = after.position;
+  state.shape.agents = static_cast<int>(held_.size());
+  state.shape.points = shapes_->pointCount();
+  state.shape.coordinates = after.points.data();
   return limits_(state) >= (after.position == goal_ ? 0.0 : kSpare);
 }
 

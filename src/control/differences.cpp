@@ -10,6 +10,10 @@ namespace {
 
 constexpr double SMALLEST_DISPLACEMENT = 1e-6;  // m, below which a difference is rounding
 
+Eigen::Index wrenchNumbers(const ObservationView& observation) {
+  return observation.wrenches != nullptr ? 6L * observation.agents : 0;
+}
+
 double finiteMinimum(const distance::Distances& distances, int copy) {
   return std::isfinite(distances.minimum[copy]) ? distances.minimum[copy] : 0.0;
 }
@@ -21,7 +25,8 @@ Differences::Differences(int agents, int leader) : leader_(leader), agents_(stat
 void Differences::reset() { agents_.assign(agents_.size(), Agent{}); }
 
 void Differences::update(const ObservationView& observation) {
-  const Eigen::Index columns = 3L * observation.points + 1;
+  const Eigen::Index columns = 3L * observation.points + wrenchNumbers(observation) + 1;
+  points_ = observation.points;
   for (std::size_t agent = 0; agent < agents_.size(); ++agent) {
     if (agents_[agent].rates.cols() != columns) {
       agents_[agent] = Agent{};
@@ -59,17 +64,25 @@ void Differences::updateAgent(int index, const ObservationView& observation) {
 //! Rates that the usable copies tell: R <- R + D^+ (change - D R).
 void Differences::fill(Agent& agent, const ObservationView& observation) {
   const Eigen::Index size = 3L * observation.points;
+  const Eigen::Index wrenches = wrenchNumbers(observation);
   const auto coordinates = [&](int copy) {
     return Eigen::Map<const Eigen::RowVectorXd>(observation.coordinates + copy * size, size);
   };
+  const auto wrenchesOf = [&](int copy) {
+    return Eigen::Map<const Eigen::RowVectorXd>(observation.wrenches + copy * wrenches, wrenches);
+  };
   const auto count = static_cast<Eigen::Index>(usable_.size());
   directions_.resize(count, 3);
-  change_.resize(count, size + 1);
+  change_.resize(count, size + wrenches + 1);
   for (Eigen::Index i = 0; i < count; ++i) {
     const int copy = usable_[i];
     directions_.row(i) = Eigen::Map<const Vector3>(observation.displacements + 3 * copy).transpose();
     change_.row(i).head(size) = coordinates(copy) - coordinates(0);
-    change_(i, size) = finiteMinimum(*observation.distances, copy) - finiteMinimum(*observation.distances, 0);
+    if (wrenches > 0) {
+      change_.row(i).segment(size, wrenches) = wrenchesOf(copy) - wrenchesOf(0);
+    }
+    change_(i, size + wrenches) =
+        finiteMinimum(*observation.distances, copy) - finiteMinimum(*observation.distances, 0);
     for (int axis = 0; axis < 3; ++axis) {
       change_.row(i) -= directions_(i, axis) * agent.rates.row(axis);
     }
@@ -87,7 +100,7 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
 
 void Differences::takeResponse(std::vector<double>& to) const {
   using Derivative = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-  const Eigen::Index points = agents_.front().rates.cols() / 3;
+  const Eigen::Index points = points_;
   to.resize(9 * points * agents_.size());
   for (Eigen::Index point = 0; point < points; ++point) {
     Derivative leader(&to[9 * (leader_ * points + point)]);
@@ -99,6 +112,22 @@ void Differences::takeResponse(std::vector<double>& to) const {
         leader -= derivative;
       }
     }
+  }
+}
+
+void Differences::takeWrenchResponse(std::vector<double>& to) const {
+  const std::size_t agents = agents_.size();
+  to.assign(36 * agents * agents, 0.0);
+  for (std::size_t number = 0; number < 6 * agents; ++number) {
+    Vector3 rest = Vector3::Zero();
+    for (std::size_t agent = 0; agent < agents; ++agent) {
+      if (static_cast<int>(agent) != leader_) {
+        const Vector3 rates = agents_[agent].rates.col(3L * points_ + static_cast<Eigen::Index>(number));
+        Eigen::Map<Vector3>{&to[6 * (number * agents + agent)]} = rates;
+        rest -= rates;
+      }
+    }
+    Eigen::Map<Vector3>{&to[6 * (number * agents + leader_)]} = rest;
   }
 }
 

@@ -14,6 +14,7 @@ void Features::clear() {
   identity.clear();
   disturbance.clear();
   gradients_.clear();
+  turns_.clear();
 }
 
 void Features::take(const ChosenFeatures& chosen, int agents) {

@@ -32,8 +32,9 @@ void Gradients::take(const ObservationView& observation) {
     if (nearest_only) {
       chosen.most = 1;
     }
-    takeResponseGradients(chosen, {observation.sensitivities, observation.agents, observation.points}, team_.leader,
-                          features_);
+    const double* turns = team_.turns ? observation.turning_sensitivities : nullptr;
+    takeResponseGradients(chosen, {observation.sensitivities, observation.agents, observation.points, turns},
+                          team_.leader, features_);
   } else if (nearest_only) {
     differences_.takeMinimum(*observation.distances, features_);
   } else {

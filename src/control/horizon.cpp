@@ -24,6 +24,7 @@ Team commandingAll(const ControllerParameters& p, double length) {
   team.commanded = team.assistants;
   team.max_velocity = 2.0 * p.max_velocity * length;  // of displacements
   team.formulation.anticipation = false;
+  team.turns = false;  // grips are expected to keep their orientations
   return team;
 }
 
@@ -158,6 +159,7 @@ void Horizon::addLimits(int node, double time) {
   there.positions.assign(held_.begin() + static_cast<std::ptrdiff_t>(node) * team_.agents,
                          held_.begin() + static_cast<std::ptrdiff_t>(node + 1) * team_.agents);
   there.velocities.assign(there.positions.size(), Vector3::Zero());
+  there.shape = forecast_->shape(node);
   forecast_->takeFeatures(node, team_.leader, features_);
   memories_[node].recall(time, there.positions.data(), features_);
   for (int m = 0; m < features_.size(); ++m) {

@@ -29,6 +29,9 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
   observe(observation);
   shapes.setPresent(observation.coordinates);
+  if (observation.orientations != nullptr) {  // grips turn, and are expected to keep them now
+    shapes.setOrientations(orientationsOf(observation));
+  }
   shapes.find(held);
   points_.resize(numbers * nodes);
   responses_.resize(3 * numbers * agents_ * nodes);
@@ -115,6 +118,18 @@ void ObjectForecast::takeFeatures(int node, int leader, Features& features) cons
   }
   const std::size_t numbers = 9 * static_cast<std::size_t>(points_of_shape_) * agents_;
   takeResponseGradients({nearest_, place}, {&responses_[numbers * place], agents_, points_of_shape_}, leader, features);
+}
+
+ObjectShape ObjectForecast::shape(int node) const {
+  ObjectShape shape;
+  shape.agents = agents_;
+  shape.points = points_of_shape_;
+  if (place_[node] >= 0) {
+    const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
+    shape.coordinates = &points_[numbers * place_[node]];
+    shape.response = &responses_[3 * numbers * agents_ * place_[node]];
+  }
+  return shape;
 }
 
 }  // namespace control

@@ -11,6 +11,8 @@ namespace control {
 
 namespace {
 
+constexpr double UNIT_NORM = 1e-3;  // quaternions this near to unit norm are normalised
+
 //! Whether all numbers are finite: a sum of numbers, each times zero, is zero only then.
 bool areFinite(const double* values, long count) {
   return (0.0 * Eigen::Map<const Eigen::ArrayXd>(values, count)).sum() == 0.0;
@@ -37,7 +39,12 @@ std::string notFinite(const ObservationView& o) {
        {Field{"positions", o.positions, 3L * o.agents}, Field{"velocities", o.velocities, 3L * o.agents},
         Field{"points", o.coordinates, coordinates}, Field{"displacements", o.displacements, 3L * o.copies},
         Field{"obstacles", o.obstacle_poses, 7L * o.obstacles},
-        Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points}}) {
+        Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points},
+        Field{"turning_sensitivities", o.turning_sensitivities, 9L * o.agents * o.points},
+        Field{"orientations", o.orientations, 4L * o.agents},
+        Field{"angular_velocities", o.angular_velocities, 3L * o.agents},
+        Field{"wrenches", o.wrenches, 6L * o.copies * o.agents},
+        Field{"wrench_sensitivities", o.wrench_sensitivities, 36L * o.agents * o.agents}}) {
     if (field.values != nullptr && !areFinite(field.values, field.count)) {
       return std::string(field.name) + " of the state holds a number that is not finite";
     }
@@ -61,6 +68,18 @@ std::string notFinite(const distance::Distances& distances) {
     }
     if (!feature.obstacle_velocity.allFinite()) {
       return fault("obstacle_velocity");
+    }
+  }
+  return "";
+}
+
+std::string wrongOrientation(const ObservationView& o) {
+  for (int agent = 0; o.orientations != nullptr && agent < o.agents; ++agent) {
+    const double norm = Eigen::Map<const Eigen::Vector4d>(o.orientations + 4 * agent).norm();
+    if (!(std::abs(norm - 1.0) < UNIT_NORM)) {
+      std::ostringstream text;
+      text << "orientations of the state holds a quaternion of norm " << norm << ", not 1";
+      return text.str();
     }
   }
   return "";
@@ -105,8 +124,19 @@ std::string wrongMinimum(const distance::Distances& d, int copies) {
 
 }  // namespace
 
+std::vector<pbd::Quaternion> orientationsOf(const ObservationView& observation) {
+  std::vector<pbd::Quaternion> orientations;
+  for (int agent = 0; agent < observation.agents; ++agent) {
+    orientations.push_back(Eigen::Map<const pbd::Quaternion>(observation.orientations + 4 * agent).normalized());
+  }
+  return orientations;
+}
+
 std::string findFault(const ObservationView& observation) {
   std::string fault = notFinite(observation);
+  if (fault.empty()) {
+    fault = wrongOrientation(observation);
+  }
   if (fault.empty()) {
     fault = notFinite(*observation.distances);
   }

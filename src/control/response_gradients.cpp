@@ -17,6 +17,19 @@ void takeResponseGradients(const ChosenFeatures& chosen, const Response& respons
     }
   }
   features.completeLeader(leader);
+  if (response.turns == nullptr) {
+    return;
+  }
+  features.takeTurns();
+  for (int m = 0; m < features.size(); ++m) {
+    for (int agent = 0; agent < response.agents; ++agent) {
+      for (int k = 0; k < 3; ++k) {
+        const long point = static_cast<long>(agent) * response.points + first[m].vertices[k];
+        features.turn(m, agent) +=
+            first[m].weights[k] * (Derivative(response.turns + 9 * point).transpose() * features.normal[m]);
+      }
+    }
+  }
 }
 
 }  // namespace control

@@ -26,7 +26,10 @@ Status statusOf(const Filtered& result, const Decision& decision) {
   if (result.status != Status::NOMINAL && result.status != Status::CONSTRAINED) {
     return result.status;
   }
-  const double departure = (decision.command - decision.nominal).cwiseAbs().maxCoeff();
+  double departure = (decision.command - decision.nominal).cwiseAbs().maxCoeff();
+  if (decision.angular_nominal.allFinite()) {
+    departure = std::max(departure, (decision.angular_command - decision.angular_nominal).cwiseAbs().maxCoeff());
+  }
   return departure > VELOCITY_TOLERANCE ? Status::CONSTRAINED : Status::NOMINAL;
 }
 
@@ -35,6 +38,7 @@ Status statusOf(const Filtered& result, const Decision& decision) {
 TeamController::TeamController(const ControllerParameters& p)
     : parameters_(p),
       velocities_(1e-4, p.timeout),
+      turning_(p),
       gradients_(p),
       coordination_(static_cast<int>(p.team.commanded.size())),
       together_(p, p.team) {
@@ -96,6 +100,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
   if (horizon_ != nullptr) {
     horizon_->setParameters(parameters_);
   }
+  turning_.setParameters(parameters_);
   gradients_.setParameters(parameters_);
   setSmoothing();
 }
@@ -121,6 +126,7 @@ void TeamController::reset() {
 
 void TeamController::forget() {
   velocities_.reset();
+  turning_.reset();
   gradients_.reset();
   coordination_.reset();
   if (horizon_ != nullptr) {
@@ -128,6 +134,7 @@ void TeamController::forget() {
   }
   for (TeamMember& member : members_) {
     member.stop();
+    member.turn.stop();
     if (member.detour) {
       member.detour->reset();
     }
@@ -137,9 +144,12 @@ void TeamController::forget() {
 
 AssistantIntent TeamController::intent(int member) const {
   const TeamMember& m = members_[member];
-  return {
-      answered_.value_or(0.0), m.enabled && !waits_, coordination_.hears(), coordination_.together(), m.aim, m.command,
-      m.acceleration,          m.departure};
+  return {answered_.value_or(0.0),  m.enabled && !waits_,
+          coordination_.hears(),    coordination_.together(),
+          turning_.unturned(m.aim), m.command,
+          m.acceleration,           m.departure,
+          m.turn.command,           m.turn.acceleration,
+          m.turn.departure};
 }
 
 void TeamController::hear(int member, const AssistantIntent& intent) {
@@ -150,8 +160,8 @@ void TeamController::hear(int member, const AssistantIntent& intent) {
 
 void TeamController::takeReference(int member, const ObservationView& observation) {
   TeamMember& taking = members_[member];
-  taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
-  taking.aim = taking.reference;
+  taking.aim = observation.position(taking.agent) - observation.position(parameters_.team.leader);
+  taking.reference = turning_.unturned(taking.aim);
   taking.departure.setZero();  // it was from another nominal velocity
   if (taking.detour) {
     taking.detour->reset();
@@ -174,8 +184,11 @@ const std::vector<Decision>& TeamController::wait() {
   clearDecisions();
   for (int i = 0; i < size(); ++i) {
     decisions_[i].command = members_[i].slowed(motionLimits());
+    decisions_[i].angular_command = members_[i].turn.slowed(turningLimits());
     members_[i].setCommand(decisions_[i].command, parameters_.cycle_time);
+    members_[i].turn.setCommand(decisions_[i].angular_command, parameters_.cycle_time);
     members_[i].departure.setZero();
+    members_[i].turn.departure.setZero();
   }
   return decisions_;
 }
@@ -195,12 +208,14 @@ const std::vector<Decision>& TeamController::update(const ObservationView& obser
   const Eigen::Index size = 3 * observation.agents;
   velocities_.update(observation.time, Eigen::Map<const Eigen::VectorXd>(observation.positions, size));
   gradients_.update(observation);
+  turning_.observe(observation);
   predict(observation);
   findWays(observation);
   clearDecisions();
   describe(observation);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     decisions_[i].command = members_[i].slowed(motionLimits());  // unless something else is decided
+    decisions_[i].angular_command = members_[i].turn.slowed(turningLimits());
   }
   if (std::any_of(members_.begin(), members_.end(), [](const TeamMember& m) { return m.own && m.enabled; })) {
     decide(observation);
@@ -215,8 +230,10 @@ void TeamController::conclude() {
     if (!members_[i].enabled) {
       decision.status = Status::DISABLED;
       members_[i].departure.setZero();
+      members_[i].turn.departure.setZero();
     }
     members_[i].setCommand(decision.command, parameters_.cycle_time);
+    members_[i].turn.setCommand(decision.angular_command, parameters_.cycle_time);
   }
 }
 
@@ -241,20 +258,36 @@ void TeamController::predict(const ObservationView& observation) {
   for (int agent = 0; agent < observation.agents; ++agent) {
     predicted_.positions[agent] = present_.positions[agent] + predicted_.delay * predicted_.velocities[agent];
   }
+  predictTurns();
+}
+
+//! The same of turns, where grips turn.
+void TeamController::predictTurns() {
+  if (!turning_.turns()) {
+    return;
+  }
+  predicted_.angular_velocities = turning_.angularVelocities();
+  for (const TeamMember& member : members_) {
+    if (member.own || coordination_.together()) {
+      predicted_.angular_velocities[member.agent] = member.turn.command;
+    }
+  }
+  turning_.predict(predicted_.angular_velocities, predicted_.delay);
 }
 
 //! Where the members go: to their places, or on a way around what holds them off.
 void TeamController::findWays(const ObservationView& observation) {
   const int leader = parameters_.team.leader;
   for (TeamMember& member : members_) {
-    member.aim = member.reference;
+    const Vector3 place = turning_.turned(member.reference, false);
+    member.aim = place;
     if (member.detour && parameters_.safety) {
       const DetourSearch::Limits limits = [this, agent = member.agent](const PresentState& state) {
         return lowestMargin(state, agent);
       };
       member.detour->update(observation,
-                            {member.agent, member.reference, member.command, member.enabled,
-                             observation.position(leader), predicted_.leaderVelocity()},
+                            {member.agent, place, member.command, member.enabled, observation.position(leader),
+                             predicted_.leaderVelocity()},
                             limits);
       member.aim = member.detour->aim();
     }
@@ -262,31 +295,42 @@ void TeamController::findWays(const ObservationView& observation) {
   }
 }
 
-//! The lowest h [m] of all barriers of an agent.
+//! [m] How far a state is within all limits of an agent.
 double TeamController::lowestMargin(const PresentState& state, int agent) const {
   double lowest = std::numeric_limits<double>::infinity();
   for (const auto& barrier : together_.barriers()) {
-    lowest = std::min(lowest, barrier->value(state, agent));
+    lowest = std::min(lowest, barrier->clearance(state, agent));
   }
   return lowest;
 }
 
 Vector3 TeamController::nominal(const TeamMember& member) const {
-  const Vector3 target = predicted_.positions[parameters_.team.leader] + member.aim;
+  const Vector3 place = turning_.turned(turning_.unturned(member.aim), true);
+  const Vector3 target = predicted_.positions[parameters_.team.leader] + place;
   const Vector3 back = parameters_.gain * (target - predicted_.positions[member.agent]);
-  return parameters_.team.formulation.leader_velocity ? Vector3(back + predicted_.leaderVelocity()) : back;
+  if (!parameters_.team.formulation.leader_velocity) {
+    return back;
+  }
+  const Vector3 carried = back + predicted_.leaderVelocity();
+  return turning_.turns() ? Vector3(carried + turning_.velocityOf(place)) : carried;
 }
 
 //! What the decisions say about the present state, whatever the commands.
 void TeamController::describe(const ObservationView& observation) {
   present_.distance = observation.distances->minimum[0];
+  present_.shape = presentShape(observation);
   for (int i = 0; i < size(); ++i) {
     const TeamMember& member = members_[i];
     Decision& decision = decisions_[i];
     decision.nominal = nominal(member);
     decision.detour = member.detour ? member.detour->state() : DetourState::NONE;
     decision.position = present_.positions[member.agent];
-    decision.target = present_.positions[parameters_.team.leader] + member.reference;
+    decision.target = present_.positions[parameters_.team.leader] + turning_.turned(member.reference, false);
+    if (turning_.turns()) {
+      const Turn turn = turning_.turn(member.agent);
+      decision.orientation_error = turn.error;
+      decision.angular_nominal = turn.nominal;
+    }
     decision.distance = present_.distance;
     const auto& barriers = together_.barriers();
     for (std::size_t k = 0; k < barriers.size(); ++k) {
@@ -298,11 +342,16 @@ void TeamController::describe(const ObservationView& observation) {
 void TeamController::decide(const ObservationView& observation) {
   gradients_.find(observation, moved_);
   const bool usable = gradientsAreKnown();
-  if (parameters_.safety && gradients_.features().size() > 0 && !usable) {
+  const bool needed = gradients_.features().size() > 0 || together_.needsResponse();
+  if (parameters_.safety && needed && !usable) {
     return;
+  }
+  if (together_.needsResponse()) {
+    predicted_.shape = gradients_.shape(observation);
   }
   describeGradients();
   setBounds();
+  lookAtTurns(observation);
   lookAhead(observation);
   if (parameters_.safety) {
     passFiltered();
@@ -342,7 +391,24 @@ MotionLimits TeamController::motionLimits() const {
 
 void TeamController::setBounds() {
   for (TeamMember& member : members_) {
-    member.setBounds(motionLimits());
+    member.setBounds(motionLimits(), member.enabled);
+  }
+}
+
+MotionLimits TeamController::turningLimits() const {
+  return {parameters_.team.max_angular_velocity, parameters_.max_angular_acceleration,
+          std::numeric_limits<double>::infinity(), parameters_.cycle_time};
+}
+
+//! Bounds and goals of the members' turning: while it is not known how the object follows, grips come to rest.
+void TeamController::lookAtTurns(const ObservationView& observation) {
+  if (!turning_.turns()) {
+    return;
+  }
+  const bool known = !parameters_.safety || gradients_.knowsTurns(observation);
+  for (int i = 0; i < size(); ++i) {
+    members_[i].turn.setBounds(turningLimits(), members_[i].enabled && known);
+    members_[i].turn.goal = decisions_[i].angular_nominal;
   }
 }
 
@@ -372,6 +438,10 @@ void TeamController::passUnfiltered() {
     if (command.allFinite()) {
       decisions_[i].status = Status::UNSAFE_FILTER_OFF;
       decisions_[i].command = command;
+      if (turning_.turns()) {
+        decisions_[i].angular_command =
+            decisions_[i].angular_nominal.cwiseMax(members_[i].turn.lower).cwiseMin(members_[i].turn.upper);
+      }
     } else {
       decisions_[i].status = Status::FAILED;
     }
@@ -394,8 +464,13 @@ void TeamController::decideBy(TeamProgram& program, const std::vector<int>& memb
     const int i = members[column];
     const TeamMember& member = members_[i];
     const Vector3 nominal = member.goal + kept_ * member.departure;
-    program.want(static_cast<int>(column), member.enabled ? nominal : decisions_[i].command, member.lower,
+    program.want(3 * static_cast<int>(column), member.enabled ? nominal : decisions_[i].command, member.lower,
                  member.upper);
+    if (turning_.turns()) {
+      const Vector3 turn = member.turn.goal + kept_ * member.turn.departure;
+      program.want(3 * static_cast<int>(members.size() + column), member.enabled ? turn : decisions_[i].angular_command,
+                   member.turn.lower, member.turn.upper);
+    }
   }
   const Filtered& result = program.solve(gradients_.features(), predicted_);
   for (std::size_t column = 0; column < members.size(); ++column) {
@@ -403,6 +478,9 @@ void TeamController::decideBy(TeamProgram& program, const std::vector<int>& memb
     decision.solve_time += program.solveTime();
     if (result.status != Status::FAILED) {
       decision.command = result.velocity.segment<3>(3 * static_cast<Eigen::Index>(column));
+      if (turning_.turns()) {
+        decision.angular_command = result.velocity.segment<3>(3 * static_cast<Eigen::Index>(members.size() + column));
+      }
     }
     decision.status = statusOf(result, decision);
     decision.rows = result.rows;
@@ -411,14 +489,16 @@ void TeamController::decideBy(TeamProgram& program, const std::vector<int>& memb
   }
 }
 
-//! What the rows make of the nominal velocity lasts, what the bounds alone make of it does not.
+//! See MemberMotion; nothing lasts where there was no solution.
 void TeamController::keepDeparture(const Decision& decision, TeamMember& member) const {
   if (decision.status == Status::FAILED) {
     member.departure.setZero();
-  } else if (member.rows_act) {
-    member.departure = decision.command - member.goal;
-  } else {
-    member.departure *= kept_;
+    member.turn.departure.setZero();
+    return;
+  }
+  member.keepDeparture(decision.command, member.rows_act, kept_);
+  if (turning_.turns()) {
+    member.turn.keepDeparture(decision.angular_command, member.rows_act, kept_);
   }
 }
 

@@ -3,7 +3,7 @@
 namespace deformable_manipulation {
 namespace control {
 
-Vector3 TeamMember::slowed(const MotionLimits& limits) const {
+Vector3 MemberMotion::slowed(const MotionLimits& limits) const {
   Vector3 next;
   for (int axis = 0; axis < 3; ++axis) {
     next[axis] = limits.slowed(command[axis], acceleration[axis]);
@@ -11,7 +11,7 @@ Vector3 TeamMember::slowed(const MotionLimits& limits) const {
   return next;
 }
 
-void TeamMember::setBounds(const MotionLimits& limits) {
+void MemberMotion::setBounds(const MotionLimits& limits, bool enabled) {
   if (!enabled) {
     lower = upper = slowed(limits);
     return;
@@ -23,12 +23,20 @@ void TeamMember::setBounds(const MotionLimits& limits) {
   }
 }
 
-void TeamMember::setCommand(const Vector3& next, double cycle_time) {
+void MemberMotion::setCommand(const Vector3& next, double cycle_time) {
   acceleration = (next - command) / cycle_time;
   command = next;
 }
 
-void TeamMember::stop() {
+void MemberMotion::keepDeparture(const Vector3& next, bool rows_act, double kept) {
+  if (rows_act) {
+    departure = next - goal;
+  } else {
+    departure *= kept;
+  }
+}
+
+void MemberMotion::stop() {
   command.setZero();
   acceleration.setZero();
   departure.setZero();

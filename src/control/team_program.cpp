@@ -1,5 +1,6 @@
 #include "deformable_manipulation/control/team_program.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -8,7 +9,13 @@ namespace control {
 namespace {
 
 Eigen::VectorXd weightsOf(const ControllerParameters& parameters, const Team& team) {
-  return parameters.weights.replicate(static_cast<Eigen::Index>(team.commanded.size()), 1);
+  const auto members = static_cast<Eigen::Index>(team.commanded.size());
+  Eigen::VectorXd weights(team.variables());
+  weights.head(3 * members) = parameters.weights.replicate(members, 1);
+  if (team.turns) {
+    weights.tail(3 * members) = parameters.turning_weights.replicate(members, 1);
+  }
+  return weights;
 }
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -21,7 +28,7 @@ TeamProgram::TeamProgram(const ControllerParameters& parameters, const Team& tea
     : barriers_(makeBarriers(parameters.barriers, parameters.values, team)),
       filter_(weightsOf(parameters, team), parameters.priority, team.formulation.relaxation) {
   for (Eigen::VectorXd* vector : {&nominal_, &lower_, &upper_}) {
-    vector->setZero(3 * static_cast<Eigen::Index>(team.commanded.size()));
+    vector->setZero(team.variables());
   }
 }
 
@@ -31,10 +38,14 @@ void TeamProgram::setParameters(const ControllerParameters& parameters, const Te
   barriers_ = std::move(barriers);
 }
 
-void TeamProgram::want(int column, const Vector3& nominal, const Vector3& lower, const Vector3& upper) {
-  nominal_.segment<3>(3 * column) = nominal;
-  lower_.segment<3>(3 * column) = lower;
-  upper_.segment<3>(3 * column) = upper;
+void TeamProgram::want(int first, const Vector3& nominal, const Vector3& lower, const Vector3& upper) {
+  nominal_.segment<3>(first) = nominal;
+  lower_.segment<3>(first) = lower;
+  upper_.segment<3>(first) = upper;
+}
+
+bool TeamProgram::needsResponse() const {
+  return std::any_of(barriers_.begin(), barriers_.end(), [](const auto& barrier) { return barrier->needsResponse(); });
 }
 
 const Filtered& TeamProgram::solve(const Features& features, const PredictedState& predicted) {

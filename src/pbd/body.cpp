@@ -119,6 +119,10 @@ std::unique_ptr<RestShapes> Body::restShapes(const std::vector<HeldPoint>& /*age
 
 ResponseStatus Body::response(double*) { return ResponseStatus::NOT_AVAILABLE; }
 
+bool Body::turningResponse(double*) const { return false; }
+
+bool Body::wrenchResponse(double*) const { return false; }
+
 int Body::addCopy(int particle, const Vector3& displacement) {
   held(particle);
   const double length = displacement.norm();

@@ -313,11 +313,11 @@ void Fabric::endStep() {
   }
 }
 
-Wrench Fabric::wrench(int particle) const {
+Wrench Fabric::wrench(int particle, int copy) const {
   held(particle);
   Wrench wrench;
   wrench.force = state_->masses[particle] * parameters_.gravity +
-                 state_->constraints.force(particle, state_->recorded.front().data());
+                 state_->constraints.force(particle, state_->recorded[copy / kLanes].data() + copy % kLanes);
   return wrench;
 }
 

@@ -41,7 +41,8 @@ class FabricConstraints {
     return kRecordedOfHinge * hinges_.size() + kRecordedOfBoundary * boundaries_.size();
   }
 
-  //! [N] What all constraints exert on a vertex of the copy in lane 0, in the substep that was recorded.
+  //! [N] What all constraints exert on a vertex of a copy, in the substep that was recorded.
+  //! @param recorded from its lane on
   Vector3 force(int vertex, const double* recorded) const;
 
  private:

@@ -404,12 +404,13 @@ double Rod::stretch() const {
   return length / parameters_.length - 1.0;
 }
 
-Wrench Rod::wrench(int particle) const {
+Wrench Rod::wrench(int particle, int copy) const {
   held(particle);
-  const RodLanes& lanes = state_->groups[0];
+  const RodLanes& lanes = state_->groups.of(copy);
+  const int lane = copy % kLanes;
   const double per_h2 = state_->input.h > 0.0 ? 1.0 / (state_->input.h * state_->input.h) : 0.0;
   const double half = 0.5 * parameters_.segmentLength();
-  const Vector3 d = tangent(read4(lanes.orientation, particle, 0));
+  const Vector3 d = tangent(read4(lanes.orientation, particle, lane));
   Wrench wrench;
   wrench.force = parameters_.segmentMass() * parameters_.gravity;
   for (int side : {-1, 0}) {  // the joints before and after the segment
@@ -417,8 +418,8 @@ Wrench Rod::wrench(int particle) const {
     if (joint < 0 || joint + 1 >= parameters_.segments) {
       continue;
     }
-    const Vector3 force = per_h2 * read3(lanes.multiplier, 2 * joint, 0);
-    const Vector3 torque = per_h2 * read3(lanes.multiplier, 2 * joint + 1, 0);
+    const Vector3 force = per_h2 * read3(lanes.multiplier, 2 * joint, lane);
+    const Vector3 torque = per_h2 * read3(lanes.multiplier, 2 * joint + 1, lane);
     wrench.force += (side == 0 ? 1.0 : -1.0) * force;
     wrench.torque += half * d.cross(force) + (side == 0 ? 1.0 : -1.0) * torque;
   }
@@ -432,6 +433,16 @@ ResponseStatus Rod::response(double* to) {
     equilibrium.response(0, to);
   }
   return equilibrium.status(0);
+}
+
+bool Rod::turningResponse(double* to) const {
+  state_->equilibrium.turningResponse(0, to);
+  return true;
+}
+
+bool Rod::wrenchResponse(double* to) const {
+  state_->equilibrium.wrenchResponse(0, to);
+  return true;
 }
 
 std::unique_ptr<RestShapes> Rod::restShapes(const std::vector<HeldPoint>& agents) const {

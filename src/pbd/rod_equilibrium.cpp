@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "rod_derivative.h"
 #include "rod_equilibrium_kernel.h"
 
 namespace deformable_manipulation {
@@ -62,6 +63,7 @@ struct RodEquilibrium::State {
   std::vector<double> present;          // points of all copies as simulated
   std::vector<Vector3> held_positions;  // [copies x holds] m
   bool elsewhere = false;               // whether they are other holds than the simulated ones
+  bool turned = false;                  // see EquilibriumOptions
   int iterations = 0;
 
   void configure(const Rod& rod);
@@ -127,6 +129,52 @@ void RodEquilibrium::response(int copy, double* to) const {
   }
 }
 
+void RodEquilibrium::turningResponse(int copy, double* to) const {
+  requireValid(copy);
+  RodDerivative derivative(state_->input, state_->groups[copy / kLanes], copy % kLanes);
+  const int holds = static_cast<int>(state_->held.size());
+  const int points = state_->parameters.segments + 1;
+  std::vector<Vector3> changes;
+  for (int h = 0; h < holds; ++h) {
+    for (int axis = 0; axis < 3; ++axis) {
+      derivative.turn(h, Vector3::Unit(axis));
+      derivative.pointChanges(changes);
+      for (int k = 0; k < 3 * points; ++k) {
+        to[3 * (3 * points * h + k) + axis] = changes[k / 3][k % 3];
+      }
+    }
+  }
+}
+
+void RodEquilibrium::wrenches(int copy, double* to) const {
+  requireValid(copy);
+  const RodDerivative derivative(state_->input, state_->groups[copy / kLanes], copy % kLanes);
+  for (std::size_t h = 0; h < state_->held.size(); ++h) {
+    Eigen::Map<Vector6>(to + 6 * h) = derivative.wrench(static_cast<int>(h)).numbers();
+  }
+}
+
+void RodEquilibrium::wrenchResponse(int copy, double* to) const {
+  requireValid(copy);
+  RodDerivative derivative(state_->input, state_->groups[copy / kLanes], copy % kLanes);
+  const int holds = static_cast<int>(state_->held.size());
+  for (int h = 0; h < holds; ++h) {
+    for (int axis = 0; axis < 6; ++axis) {
+      if (axis < 3) {
+        derivative.displace(h, Vector3::Unit(axis));
+      } else {
+        derivative.turn(h, Vector3::Unit(axis - 3));
+      }
+      for (int of = 0; of < holds; ++of) {
+        const Vector6 change = derivative.wrenchChange(of).numbers();
+        for (int k = 0; k < 6; ++k) {
+          to[6 * ((6 * of + k) * holds + h) + axis] = change[k];
+        }
+      }
+    }
+  }
+}
+
 void RodEquilibrium::requireValid(int copy) const {
   if (status(copy) != ResponseStatus::VALID) {
     throw std::logic_error("the equilibrium of copy " + std::to_string(copy) +
@@ -156,6 +204,7 @@ void RodEquilibrium::updateElsewhere(const Rod& rod, const std::vector<Vector3>&
 
 void RodEquilibrium::State::update(const Rod& rod, int copies, const EquilibriumOptions& options) {
   configure(rod);
+  turned = options.turned;
   iterations = 0;
   status.resize(copies, ResponseStatus::NOT_CONVERGED);
   first_position.resize(copies);
@@ -274,7 +323,9 @@ void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   std::vector<double> orientations(4 * parameters.segments);
   rod.orientations(elsewhere ? 0 : copy, orientations.data());
   for (int i = 0; i < parameters.segments; ++i) {
-    setOrientation(i, slot, &orientations[4 * i]);
+    if (!clamped[i] || (elsewhere && !turned)) {  // clamped ones are where they are held
+      setOrientation(i, slot, &orientations[4 * i]);
+    }
   }
   std::vector<double> twists(parameters.segments - 1);
   rod.twists(elsewhere ? 0 : copy, twists.data());

@@ -38,10 +38,24 @@ void RodRestShapes::find(const std::vector<Vector3>& held) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     held_[i] = held[i - i % holds + agent_of_hold_[i % holds]];
   }
-  equilibrium_.updateElsewhere(*rod_, held_, kLookingAhead);
+  search();
   if (isFarFromPresent()) {
     equilibrium_ = RodEquilibrium();
-    equilibrium_.updateElsewhere(*rod_, held_, kLookingAhead);
+    search();
+  }
+}
+
+void RodRestShapes::search() {
+  EquilibriumOptions options = kLookingAhead;
+  options.turned = turns_;
+  equilibrium_.updateElsewhere(*rod_, held_, options);
+}
+
+void RodRestShapes::setOrientations(const std::vector<Quaternion>& orientations) {
+  turns_ = true;
+  for (std::size_t i = 0; i < agent_of_hold_.size(); ++i) {
+    const HeldPoint& held = rod_->holds()[i];
+    rod_->setPose(held.particle, {held.pose.position, orientations[agent_of_hold_[i]]});
   }
 }
 

@@ -233,12 +233,56 @@ ResponseStatus Simulation::response(double* to) {
   response_.resize(numbers * holds.size());
   const ResponseStatus status = body_->response(response_.data());
   if (status == ResponseStatus::VALID) {
-    std::fill_n(to, numbers * agents_.size(), 0.0);
-    for (std::size_t i = 0; i < holds.size(); ++i) {
-      std::copy_n(&response_[numbers * i], numbers, to + numbers * agentOf(holds[i].particle));
-    }
+    spreadOverAgents(numbers, to);
   }
   return status;
+}
+
+bool Simulation::turningResponse(double* to) const {
+  const std::size_t numbers = 9 * static_cast<std::size_t>(body_->pointCount());
+  response_.resize(numbers * body_->holds().size());
+  if (!body_->turningResponse(response_.data())) {
+    return false;
+  }
+  spreadOverAgents(numbers, to);
+  return true;
+}
+
+//! From the holds, in the body's order, to the agents that hold them; the others get zeros.
+void Simulation::spreadOverAgents(std::size_t numbers, double* to) const {
+  const std::vector<HeldPoint>& holds = body_->holds();
+  std::fill_n(to, numbers * agents_.size(), 0.0);
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    std::copy_n(&response_[numbers * i], numbers, to + numbers * agentOf(holds[i].particle));
+  }
+}
+
+void Simulation::wrenches(double* to) const {
+  for (int copy = 0; copy < body_->copyCount(); ++copy) {
+    for (const AgentState& agent : states_) {
+      const Wrench wrench = agent.particle >= 0 ? body_->wrench(agent.particle, copy) : Wrench();
+      Eigen::Map<Vector6>{to} = wrench.numbers();
+      to += 6;
+    }
+  }
+}
+
+bool Simulation::wrenchResponse(double* to) const {
+  const std::vector<HeldPoint>& holds = body_->holds();
+  response_.resize(36 * holds.size() * holds.size());
+  if (!body_->wrenchResponse(response_.data())) {
+    return false;
+  }
+  std::fill_n(to, 36 * agents_.size() * agents_.size(), 0.0);
+  const double* from = response_.data();
+  for (std::size_t row = 0; row < 6 * holds.size(); ++row) {
+    const std::size_t to_row = 6 * agentOf(holds[row / 6].particle) + row % 6;
+    for (const HeldPoint& moved : holds) {
+      std::copy_n(from, 6, to + 6 * (to_row * agents_.size() + agentOf(moved.particle)));
+      from += 6;
+    }
+  }
+  return true;
 }
 
 }  // namespace pbd

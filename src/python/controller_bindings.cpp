@@ -58,8 +58,11 @@ std::unique_ptr<BoundController> makeController(const py::dict& controller, cons
 }
 
 AssistantIntent toIntent(double time, bool follows, bool hears, bool coordinated, const Vector3& reference,
-                         const Vector3& command, const Vector3& acceleration, const Vector3& departure) {
-  for (const Vector3* vector : {&reference, &command, &acceleration, &departure}) {
+                         const Vector3& command, const Vector3& acceleration, const Vector3& departure,
+                         const Vector3& angular_command, const Vector3& angular_acceleration,
+                         const Vector3& angular_departure) {
+  for (const Vector3* vector :
+       {&reference, &command, &acceleration, &departure, &angular_command, &angular_acceleration, &angular_departure}) {
     if (!vector->allFinite()) {
       throw py::value_error("an intent has a number that is not finite");
     }
@@ -67,7 +70,8 @@ AssistantIntent toIntent(double time, bool follows, bool hears, bool coordinated
   if (!std::isfinite(time)) {
     throw py::value_error("the time of an intent is not finite");
   }
-  return {time, follows, hears, coordinated, reference, command, acceleration, departure};
+  return {time,         follows,   hears,           coordinated,          reference,        command,
+          acceleration, departure, angular_command, angular_acceleration, angular_departure};
 }
 
 int checked(const BoundController& bound, int member) {
@@ -81,6 +85,10 @@ py::object update(BoundController& bound, const py::object& observation) {
   const std::string fault = bound.reader.read(observation, bound.agents);
   if (!fault.empty()) {
     return py::cast(Answer{fault, bound.controller.wait()});
+  }
+  const std::string turning = bound.controller.turningFault(bound.reader.view());
+  if (!turning.empty()) {
+    return py::cast(Answer{turning, bound.controller.wait()});
   }
   if (bound.controller.isAnswered(bound.reader.view().time)) {
     return py::none();
@@ -96,6 +104,19 @@ void takeReference(BoundController& bound, int member, const py::object& observa
   bound.controller.takeReference(checked(bound, member), bound.reader.view());
 }
 
+std::vector<double> margins(BoundController& bound, int member, const py::object& observation) {
+  const std::string fault = bound.reader.read(observation, bound.agents);
+  if (!fault.empty()) {
+    throw py::value_error(fault);
+  }
+  const ObservationView& view = bound.reader.view();
+  PresentState state{{}, view.distances->minimum[0], presentShape(view)};
+  for (int agent = 0; agent < view.agents; ++agent) {
+    state.positions.push_back(view.position(agent));
+  }
+  return bound.controller.margins(checked(bound, member), state);
+}
+
 //! A vector of a decision or an intent as a new array.
 template <typename Owner>
 auto vector(Vector3 Owner::*member) {
@@ -109,10 +130,13 @@ void bindIntent(py::module_& module) {
       "whether\n"
       "the command was decided together, its place relative to the leader [m], its command [m/s], acceleration "
       "[m/s^2]\n"
-      "and departure from its goal [m/s], each (3,). Raises ValueError for numbers that are not finite.")
+      "and departure from its goal [m/s], each (3,), and the last three of its grip [rad/s, rad/s^2, rad/s]. Raises\n"
+      "ValueError for numbers that are not finite.")
       .def(py::init(&toIntent), py::kw_only(), py::arg("time"), py::arg("follows"), py::arg("hears"),
            py::arg("coordinated"), py::arg("reference"), py::arg("command"), py::arg("acceleration"),
-           py::arg("departure"))
+           py::arg("departure"), py::arg("angular_command") = Vector3::Zero().eval(),
+           py::arg("angular_acceleration") = Vector3::Zero().eval(),
+           py::arg("angular_departure") = Vector3::Zero().eval())
       .def_readonly("time", &AssistantIntent::time)
       .def_readonly("follows", &AssistantIntent::follows)
       .def_readonly("hears", &AssistantIntent::hears)
@@ -120,7 +144,10 @@ void bindIntent(py::module_& module) {
       .def_property_readonly("reference", vector(&AssistantIntent::reference))
       .def_property_readonly("command", vector(&AssistantIntent::command))
       .def_property_readonly("acceleration", vector(&AssistantIntent::acceleration))
-      .def_property_readonly("departure", vector(&AssistantIntent::departure));
+      .def_property_readonly("departure", vector(&AssistantIntent::departure))
+      .def_property_readonly("angular_command", vector(&AssistantIntent::angular_command))
+      .def_property_readonly("angular_acceleration", vector(&AssistantIntent::angular_acceleration))
+      .def_property_readonly("angular_departure", vector(&AssistantIntent::angular_departure));
 }
 
 std::shared_ptr<MinimumDistance> nativeOf(const std::shared_ptr<NamedMinimumDistance>& distance) {
@@ -171,6 +198,9 @@ void bindDecision(py::module_& module) {
       .def_readonly("lacks_copies", &Decision::lacks_copies)
       .def_property_readonly("command", vector(&Decision::command))
       .def_property_readonly("nominal", vector(&Decision::nominal))
+      .def_property_readonly("angular_command", vector(&Decision::angular_command))
+      .def_property_readonly("angular_nominal", vector(&Decision::angular_nominal))
+      .def_property_readonly("orientation_error", vector(&Decision::orientation_error))
       .def_property_readonly("position", vector(&Decision::position))
       .def_property_readonly("target", vector(&Decision::target))
       .def_property_readonly("jacobian", vector(&Decision::jacobian))
@@ -262,11 +292,6 @@ void bindController(py::module_& module) {
            "The Answer to an observation; None if the state is not newer than the last one.")
       .def(
           "wait", [](BoundController& bound) { return bound.controller.wait(); }, "Decisions to stand still.")
-      .def(
-          "margins",
-          [](const BoundController& bound, int member, const std::vector<Vector3>& positions, double distance) {
-            return bound.controller.margins(checked(bound, member), {positions, distance});
-          },
-          py::arg("member"), py::arg("positions"), py::arg("distance"),
-          "The least h [m] of each barrier for an assistant, for held points (A, 3) [m] and a minimum distance [m].");
+      .def("margins", &margins, py::arg("member"), py::arg("observation"),
+           "The least h of each barrier for an assistant in an observed state. Raises ValueError.");
 }

@@ -97,6 +97,23 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }
+  if (!observation.attr("turning_sensitivities").is_none()) {
+    view_.turning_sensitivities =
+        numbers(observation, "turning_sensitivities", "turning_sensitivities", {agents, view_.points, 3, 3});
+  }
+  if (!observation.attr("orientations").is_none()) {
+    view_.orientations = numbers(observation, "orientations", "orientations", {agents, 4});
+  }
+  if (!observation.attr("angular_velocities").is_none()) {
+    view_.angular_velocities = numbers(observation, "angular_velocities", "angular_velocities", {agents, 3});
+  }
+  if (!observation.attr("wrenches").is_none()) {
+    view_.wrenches = numbers(observation, "wrenches", "wrenches", {copies, agents, 6});
+  }
+  if (!observation.attr("wrench_sensitivities").is_none()) {
+    view_.wrench_sensitivities =
+        numbers(observation, "wrench_sensitivities", "wrench_sensitivities", {agents, 6, agents, 6});
+  }
 }
 
 void ObservationReader::readIntent(const py::handle& intent) {

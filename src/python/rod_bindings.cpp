@@ -132,7 +132,34 @@ void bindEquilibrium(py::module_& module) {
             e.equilibrium.response(copy, array.mutable_data());
             return array;
           },
-          py::arg("copy") = 0, "d point / d held point, (H, P, 3, 3), holds in the order of their particles.");
+          py::arg("copy") = 0, "d point / d held point, (H, P, 3, 3), holds in the order of their particles.")
+      .def(
+          "turning_response",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            Array array({e.holds, e.points, 3, 3});
+            e.equilibrium.turningResponse(copy, array.mutable_data());
+            return array;
+          },
+          py::arg("copy") = 0, "d point / d turn about the held point [m/rad], (H, P, 3, 3).")
+      .def(
+          "wrenches",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            Array array({e.holds, 6});
+            e.equilibrium.wrenches(copy, array.mutable_data());
+            return array;
+          },
+          py::arg("copy") = 0, "Force [N] and torque about the held point [N m] on each agent, (H, 6).")
+      .def(
+          "wrench_response",
+          [](const BoundEquilibrium& e, int copy) {
+            requireCopy(e.equilibrium, copy);
+            Array array({e.holds, 6, e.holds, 6});
+            e.equilibrium.wrenchResponse(copy, array.mutable_data());
+            return array;
+          },
+          py::arg("copy") = 0, "d wrench / d held point and turn about it, (H, 6, H, 6).");
 }
 
 }  // namespace pbd

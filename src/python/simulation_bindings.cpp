@@ -144,6 +144,33 @@ void bindSimulation(py::module_& module) {
           "Exact derivatives (A, P, 3, 3) of the settled object's points with respect to each agent's held point, or,\n"
           "where they are not known, a clause (str) that says why.")
       .def(
+          "turning_response",
+          [](const Simulation& s) -> py::object {
+            Array array({static_cast<int>(s.agents().size()), s.body().pointCount(), 3, 3});
+            return s.turningResponse(array.mutable_data()) ? py::object(array) : py::none();
+          },
+          "After a response that is known: derivatives (A, P, 3, 3) [m/rad] of the points with respect to turns about\n"
+          "each held point; None: not available.")
+      .def(
+          "wrenches",
+          [](const Simulation& s) {
+            Array array({s.body().copyCount(), static_cast<int>(s.agents().size()), 6});
+            s.wrenches(array.mutable_data());
+            return array;
+          },
+          "Force [N] and torque about the held point [N m] (C, A, 6) that the object and its copies exert on all "
+          "agents.")
+      .def(
+          "wrench_response",
+          [](const Simulation& s) -> py::object {
+            const int agents = static_cast<int>(s.agents().size());
+            Array array({agents, 6, agents, 6});
+            return s.wrenchResponse(array.mutable_data()) ? py::object(array) : py::none();
+          },
+          "After a response that is known: derivatives (A, 6, A, 6) of the object's wrenches with respect to each "
+          "held\n"
+          "point and turns about it; None: not available.")
+      .def(
           "displaced_agents",
           [](const Simulation& s) {
             py::array_t<int> agents(s.body().copyCount());

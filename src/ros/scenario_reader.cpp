@@ -67,6 +67,9 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   scenario.perturbation = controller.vector<3>("perturbation");
   scenario.central = controller.choice<bool>("differences", {{"central", true}, {"forward", false}});
   scenario.exact_response = controller.choice<bool>("jacobian", {{"perturbed_copies", false}, {"equilibrium", true}});
+  scenario.turns = controller.text("orientation") != "fixed";
+  scenario.wrenches = controller.has("grip_force") || controller.has("grip_torque") || controller.has("tension") ||
+                      controller.has("wrench_watch");
   scenario.clock.time_step = simulation.number("time_step");
   scenario.clock.substeps = simulation.integer("substeps");
   scenario.duration = simulation.number("duration");

@@ -24,6 +24,8 @@ struct SimulatorScenario {
   pbd::Vector3 perturbation;        // [m] displacement of the assistants' copies per axis
   bool central;                     // copies on both sides
   bool exact_response;              // the controllers want the exact response of the object
+  bool turns;                       // grips turn
+  bool wrenches;                    // and what it exerts on the agents
   pbd::Clock clock;
   double duration;         // s
   double command_timeout;  // s

@@ -144,6 +144,12 @@ void Simulator::publish() {
   if (scenario_.exact_response) {
     addResponse();
   }
+  if (scenario_.turns) {
+    fillTurningSensitivities(simulation_, state_);
+  }
+  if (scenario_.wrenches) {
+    fillWrenches(simulation_, state_);
+  }
   ++published_;
   if (options_.lockstep) {
     rosgraph_msgs::Clock clock;

@@ -83,6 +83,23 @@ pbd::ResponseStatus fillSensitivities(pbd::Simulation& simulation, ObjectState& 
   return status;
 }
 
+void fillTurningSensitivities(const pbd::Simulation& simulation, ObjectState& message) {
+  message.turning_sensitivities.resize(message.sensitivities.size());
+  if (message.sensitivities.empty() || !simulation.turningResponse(message.turning_sensitivities.data())) {
+    message.turning_sensitivities.clear();
+  }
+}
+
+void fillWrenches(const pbd::Simulation& simulation, ObjectState& message) {
+  const std::size_t agents = simulation.agents().size();
+  message.wrenches.resize(6 * agents * simulation.body().copyCount());
+  simulation.wrenches(message.wrenches.data());
+  message.wrench_sensitivities.resize(36 * agents * agents);
+  if (message.sensitivities.empty() || !simulation.wrenchResponse(message.wrench_sensitivities.data())) {
+    message.wrench_sensitivities.clear();
+  }
+}
+
 geometry_msgs::WrenchStamped toWrench(const pbd::Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;

@@ -131,6 +131,13 @@ def command_of(decision):
     return np.array([decision.velocity_x, decision.velocity_y, decision.velocity_z])
 
 
+def turning_of(decision):
+    """The angular velocity (3,) [rad/s] in a ControllerState."""
+    return np.array(
+        [decision.angular_velocity_x, decision.angular_velocity_y, decision.angular_velocity_z]
+    )
+
+
 def object_points(state):
     """Geometry points (P, 3) [m] of the object itself."""
     return state.points[: 3 * state.point_count].reshape(-1, 3)

@@ -17,6 +17,7 @@ from observed_run import (
     read_scenario,
     records_without_ros,
     run_tests,
+    turning_of,
 )
 
 from deformable_manipulation.distance.factory import make_minimum_distance
@@ -79,6 +80,13 @@ class LockstepTest(unittest.TestCase):
                 where = "{} in cycle {}".format(name, record.cycle)
                 np.testing.assert_allclose(
                     command_of(decision), expected.command, 0.0, TOLERANCE, err_msg=where
+                )
+                np.testing.assert_allclose(
+                    turning_of(decision), expected.angular_command, 0.0, TOLERANCE, err_msg=where
+                )
+                self.assertEqual(list(decision.barriers), list(expected.h), where)
+                np.testing.assert_allclose(
+                    decision.h, list(expected.h.values()), 0.0, 1e-6, err_msg=where
                 )
                 self.assertEqual(decision.status, expected.status, where)
                 self.assertEqual(decision.exact_jacobian, expected.exact_jacobian, where)

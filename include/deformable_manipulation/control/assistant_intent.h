@@ -17,6 +17,11 @@ struct AssistantIntent {
   Vector3 command;       //!< [m/s] that answers the state
   Vector3 acceleration;  //!< [m/s^2] from the command before to it
   Vector3 departure;     //!< [m/s] of the command from its goal, by the limits
+
+  //! The same three of its grip's turning [rad/s, rad/s^2, rad/s].
+  Vector3 angular_command = Vector3::Zero();
+  Vector3 angular_acceleration = Vector3::Zero();
+  Vector3 angular_departure = Vector3::Zero();
 };
 
 }  // namespace control

@@ -8,6 +8,7 @@
 
 #include "deformable_manipulation/control/constraint_rows.h"
 #include "deformable_manipulation/control/features.h"
+#include "deformable_manipulation/control/object_shape.h"
 #include "deformable_manipulation/control/predicted_state.h"
 #include "deformable_manipulation/control/team.h"
 #include "deformable_manipulation/parameters/parameter_section.h"
@@ -19,6 +20,7 @@ namespace control {
 struct PresentState {
   std::vector<Vector3> positions;  //!< [A] m, held points
   double distance;                 //!< [m] signed minimum of the object; infinite: no obstacle
+  ObjectShape shape = {};          //!< of the object, as far as it is known
 };
 
 //! The rows of one barrier: they share its slack.
@@ -50,11 +52,18 @@ class Barrier {
  public:
   virtual ~Barrier() = default;
 
-  //! The lowest h of an agent [m], without margins; infinite if nothing limits it.
+  //! The lowest h of an agent, without margins; infinite if nothing limits it. In m, unless the barrier's declaration
+  //! says otherwise.
   virtual double value(const PresentState& state, int agent) const = 0;
+
+  //! [m] How far a state is within the limits of an agent, for the search for detours: the value, if that is a length.
+  virtual double clearance(const PresentState& state, int agent) const { return value(state, agent); }
 
   //! Adds the constraints on the velocities of the commanded assistants.
   virtual void addRows(const Features& features, const PredictedState& state, BarrierRows& rows) const = 0;
+
+  //! Whether its rows need to know how the object's shape follows its held points, even far from all obstacles.
+  virtual bool needsResponse() const { return false; }
 };
 
 //! Makes a barrier from its section of the scenario.

@@ -19,6 +19,13 @@ enum class ExpectedLeader {
   KNOWN       //!< does what it announces
 };
 
+//! What the assistants' grips do about their orientations, see TurningLaw.
+enum class OrientationMode {
+  FIXED,   //!< they keep it
+  FOLLOW,  //!< they turn with the leader
+  FREE     //!< they turn where that serves the barriers
+};
+
 //! How far a controller looks ahead, see Horizon.
 struct HorizonParameters {
   double length;  //!< [s] 0: not at all
@@ -46,10 +53,15 @@ struct ControllerParameters {
   double max_velocity;              //!< [m/s] of every component
   double max_acceleration;          //!< [m/s^2] of every component
   double max_jerk;                  //!< [m/s^3] of every component
-  double smoothing;                 //!< [s] time constant of a deviation from the nominal velocity; 0: none
-  double disturbance_filter;        //!< [s] time constant of the disturbance observer; 0: none
-  double timeout;                   //!< [s] if a state is older than the last by more, time was set back
-  bool exact_gradients;             //!< from the response, where it is known
+  OrientationMode orientation;
+  double turning_gain;                        //!< [1/s]
+  Vector3 turning_weights;                    //!< cost of deviating from the nominal angular velocity, per axis
+  double max_angular_acceleration;            //!< [rad/s^2] of every component
+  std::vector<pbd::Quaternion> orientations;  //!< [A] at the start
+  double smoothing;                           //!< [s] time constant of a deviation from the nominal velocity; 0: none
+  double disturbance_filter;                  //!< [s] time constant of the disturbance observer; 0: none
+  double timeout;                             //!< [s] if a state is older than the last by more, time was set back
+  bool exact_gradients;                       //!< from the response, where it is known
   HorizonParameters horizon;
   Team team;                          //!< whose velocities are decided together, and who else there is
   std::vector<int> own;               //!< numbers of those among them whom this controller commands

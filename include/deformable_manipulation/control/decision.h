@@ -20,11 +20,15 @@ constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 struct Decision {
   Status status = Status::WAITING;
   bool enabled = true;
-  bool coordinated = false;                       //!< all assistants were decided together; false: shares
-  DetourState detour = DetourState::NONE;         //!< whether it goes another way than straight to its place
-  bool lacks_copies = false;                      //!< waits because its gradients are not known
-  Vector3 command = Vector3::Zero();              //!< [m/s] of the own held point
-  Vector3 nominal = Vector3::Constant(UNKNOWN);   //!< [m/s]
+  bool coordinated = false;                              //!< all assistants were decided together; false: shares
+  DetourState detour = DetourState::NONE;                //!< whether it goes another way than straight to its place
+  bool lacks_copies = false;                             //!< waits because its gradients are not known
+  Vector3 command = Vector3::Zero();                     //!< [m/s] of the own held point
+  Vector3 nominal = Vector3::Constant(UNKNOWN);          //!< [m/s]
+  Vector3 angular_command = Vector3::Zero();             //!< [rad/s] of the own grip
+  Vector3 angular_nominal = Vector3::Constant(UNKNOWN);  //!< [rad/s] NaN: grips do not turn
+  Vector3 orientation_error =
+      Vector3::Constant(UNKNOWN);                 //!< [rad] rotation vector to the wanted orientation, likewise
   Vector3 position = Vector3::Constant(UNKNOWN);  //!< [m] own held point
   Vector3 target = Vector3::Constant(UNKNOWN);    //!< [m] leader plus reference
   double distance = UNKNOWN;                      //!< [m] signed minimum of the object; infinite: no obstacle

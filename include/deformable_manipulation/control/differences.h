@@ -37,6 +37,13 @@ class Differences {
   //! @param to [A x P x 3 x 3] d point / d held point; the sum over all agents is the identity
   void takeResponse(std::vector<double>& to) const;
 
+  //! Whether the copies tell what they exert on the agents.
+  bool tellWrenches() const { return agents_.front().rates.cols() > 3L * points_ + 1; }
+
+  //! The same of the wrenches at the grips, if they tell them.
+  //! @param to [A x 6 x A x 6] d wrench / d held point, turn; zero for turns
+  void takeWrenchResponse(std::vector<double>& to) const;
+
   //! All features of copy 0, each with the rates of its own material point. The distance of a locally nearest pair
   //! changes with the points' motion along the normal: g[m, a, j] = normal . dX_m / dp_aj.
   void takeGradients(const distance::Distances& distances, Features& features) const;
@@ -50,7 +57,7 @@ class Differences {
 
   struct Agent {
     bool known = false;
-    Rates rates;              // [3, 3 P + 1] of the coordinates of the points, then of the minimum
+    Rates rates;              // [3, K] of the coordinates of the points, the wrenches if told, and the minimum
     Directions directions;    // [ready copies, 3] m, that the inverse is of
     Eigen::MatrixXd inverse;  // [3, ready copies]
   };
@@ -59,10 +66,11 @@ class Differences {
   void fill(Agent& agent, const ObservationView& observation);
 
   int leader_;
+  int points_ = 0;  // P
   std::vector<Agent> agents_;
   std::vector<int> usable_;                                                        // copies of the agent at hand
   Directions directions_;                                                          // [usable, 3] m
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> change_;  // [usable, 3 P + 1]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> change_;  // [usable, K]
 };
 
 }  // namespace control

@@ -38,6 +38,14 @@ class Features {
   //! Sets the leader's gradients to the normals minus the gradients of the others.
   void completeLeader(int leader);
 
+  //! Makes room for gradients by turns about the held points, zero until they are set.
+  void takeTurns() { turns_.assign(gradients_.size(), Vector3::Zero()); }
+
+  //! Gradient by turns [m/rad], if there are any.
+  Vector3& turn(int feature, int agent) { return turns_[feature * agents_ + agent]; }
+  const Vector3& turn(int feature, int agent) const { return turns_[feature * agents_ + agent]; }
+  bool haveTurns() const { return !turns_.empty(); }
+
   int size() const { return static_cast<int>(distance.size()); }
   int agents() const { return agents_; }
   Vector3& gradient(int feature, int agent) { return gradients_[feature * agents_ + agent]; }
@@ -52,6 +60,7 @@ class Features {
  private:
   int agents_ = 0;
   std::vector<Vector3> gradients_;  // [M x A]
+  std::vector<Vector3> turns_;      // [M x A] m/rad, or empty
 };
 
 }  // namespace control

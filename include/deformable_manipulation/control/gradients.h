@@ -6,6 +6,7 @@
 #include "deformable_manipulation/control/differences.h"
 #include "deformable_manipulation/control/disturbance_observer.h"
 #include "deformable_manipulation/control/response_gradients.h"
+#include "deformable_manipulation/control/shape_observer.h"
 
 namespace deformable_manipulation {
 namespace control {
@@ -36,9 +37,17 @@ class Gradients {
   //! Whether those of an agent are known.
   bool known(int agent) const { return exact_ || differences_.known(agent); }
 
+  //! Whether it is known how the object follows turns of its grips.
+  bool knowsTurns(const ObservationView& observation) const {
+    return exact_ && observation.turning_sensitivities != nullptr;
+  }
+
   //! How the object's points follow its held points, as far as the observation tells.
   //! @return [A x P x 3 x 3] valid until the next call
   const std::vector<double>& response(const ObservationView& observation);
+
+  //! The object's shape with these derivatives, and what it exerts on the agents. Valid until the next call.
+  ObjectShape shape(const ObservationView& observation) { return shapes_.observe(observation, differences_, exact_); }
 
  private:
   void take(const ObservationView& observation);
@@ -47,6 +56,7 @@ class Gradients {
   bool prefers_exact_;
   bool exact_ = false;
   Differences differences_;
+  ShapeObserver shapes_;
   DisturbanceObserver disturbances_;
   Features features_;
   std::vector<double> response_;

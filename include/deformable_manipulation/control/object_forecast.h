@@ -7,6 +7,7 @@
 #include "deformable_manipulation/control/features.h"
 #include "deformable_manipulation/control/linear_shapes.h"
 #include "deformable_manipulation/control/measured_obstacle.h"
+#include "deformable_manipulation/control/object_shape.h"
 #include "deformable_manipulation/control/obstacle_forecast.h"
 #include "deformable_manipulation/distance/minimum_distance.h"
 #include "deformable_manipulation/pbd/rest_shapes.h"
@@ -49,6 +50,9 @@ class ObjectForecast {
 
   //! The near features of the object at a node with their gradients; none where its shape is not known.
   void takeFeatures(int node, int leader, Features& features) const;
+
+  //! The object's shape at a node, without its reactions; nothing where it is not known.
+  ObjectShape shape(int node) const;
 
  private:
   void observe(const ObservationView& observation);

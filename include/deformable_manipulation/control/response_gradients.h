@@ -10,6 +10,7 @@ struct Response {
   const double* derivatives;  //!< [A x P x 3 x 3] d point / d held point
   int agents;
   int points;
+  const double* turns = nullptr;  //!< [A x P x 3 x 3] d point / d turn about the held point; null: not wanted
 };
 
 //! Features of a copy with the gradients of its quasi-static equilibrium.

@@ -14,6 +14,7 @@
 #include "deformable_manipulation/control/observation.h"
 #include "deformable_manipulation/control/team_member.h"
 #include "deformable_manipulation/control/team_program.h"
+#include "deformable_manipulation/control/turning_law.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
 namespace deformable_manipulation {
@@ -90,6 +91,9 @@ class TeamController {
   //! the timeout, time was set back: all states are forgotten.
   bool isAnswered(double time);
 
+  //! A clause that says why an observation without fault cannot be used where grips turn; empty: it can.
+  std::string turningFault(const ObservationView& observation) const { return turning_.fault(observation); }
+
   //! Decides the velocities for a state.
   //! @param observation without fault
   //! @return [M] valid until the next call
@@ -107,12 +111,15 @@ class TeamController {
   void predict(const ObservationView& observation);
   void findWays(const ObservationView& observation);
   double lowestMargin(const PresentState& state, int agent) const;
+  void predictTurns();
   Vector3 nominal(const TeamMember& member) const;
   void describe(const ObservationView& observation);
   void decide(const ObservationView& observation);
   bool gradientsAreKnown();
   void describeGradients();
   MotionLimits motionLimits() const;
+  MotionLimits turningLimits() const;
+  void lookAtTurns(const ObservationView& observation);
   void setBounds();
   void lookAhead(const ObservationView& observation);
   void passUnfiltered();
@@ -123,6 +130,7 @@ class TeamController {
 
   ControllerParameters parameters_;
   VelocityEstimator velocities_;
+  TurningLaw turning_;
   Gradients gradients_;
   Coordination coordination_;
   TeamProgram together_;                // of all members

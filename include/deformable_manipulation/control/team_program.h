@@ -31,8 +31,9 @@ class TeamProgram {
   void setSolver(QpSolver solver) { filter_.setSolver(std::move(solver)); }
 
   //! What the next solution is to come near to, and the bounds that it keeps.
-  //! @param column of the assistant among the commanded ones
-  void want(int column, const Vector3& nominal, const Vector3& lower, const Vector3& upper);
+  //! @param first of the three variables: 3 times the column of the assistant for its velocity, Team::turnOf() for its
+  //! angular velocity
+  void want(int first, const Vector3& nominal, const Vector3& lower, const Vector3& upper);
 
   //! The velocities of the commanded assistants, valid until the next call.
   const Filtered& solve(const Features& features, const PredictedState& predicted);
@@ -42,11 +43,14 @@ class TeamProgram {
 
   const std::vector<std::unique_ptr<Barrier>>& barriers() const { return barriers_; }
 
+  //! Whether a barrier's rows need to know how the object follows its held points.
+  bool needsResponse() const;
+
  private:
   std::vector<std::unique_ptr<Barrier>> barriers_;
   SafetyFilter filter_;
   ConstraintRows rows_;
-  Eigen::VectorXd nominal_;  // [3 M] m/s
+  Eigen::VectorXd nominal_;  // [3 M] m/s, where grips turn also [3 M] rad/s
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   double solve_time_ = 0.0;

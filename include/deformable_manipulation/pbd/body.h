@@ -117,15 +117,24 @@ class Body {
   //! @throw std::invalid_argument if the particle is not held.
   const HeldPoint& held(int particle) const;
 
-  //! What the object exerts on the agent that holds this particle, from the last substep; the
+  //! What the object, or a copy of it, exerts on the agent that holds this particle, from the last substep; the
   //! inertia of the held particle itself is left out.
   //! @throw std::invalid_argument if the particle is not held.
-  virtual Wrench wrench(int particle) const = 0;
+  virtual Wrench wrench(int particle, int copy = 0) const = 0;
 
   //! Quasi-static response: the exact derivative of the points of the object itself, in the equilibrium
   //! between its holds, with respect to each held point. Starts from what the last call found.
   //! @param to [holds x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
   virtual ResponseStatus response(double* to);
+
+  //! Of the equilibrium that the last response() found, if it was VALID: derivative of the points with respect to turns
+  //! about each held point, [holds x pointCount x 3 x 3] m.
+  //! @return false: not available
+  virtual bool turningResponse(double* to) const;
+
+  //! The same of the wrenches at the holds, with respect to each held point and turns about it,
+  //! [holds x 6 x holds x 6]. @return false: not available
+  virtual bool wrenchResponse(double* to) const;
 
   //! What tells how the object rests if it is held elsewhere; null: there is none for objects of this kind.
   //! @param agents where they hold the object, with the orientations that they keep; the body itself is held nowhere

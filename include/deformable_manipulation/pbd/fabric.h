@@ -50,7 +50,7 @@ class Fabric final : public Body {
 
   //! Mean elongation of the edges, weighted with the area of their triangles.
   double stretch() const override;
-  Wrench wrench(int particle) const override;
+  Wrench wrench(int particle, int copy = 0) const override;
 
   //! Computed at the present shape, which is near an equilibrium unless it moves fast. NOT_CONVERGED before the first
   //! step after a change of holds or material. While the fabric snaps to another shape, the last response stays in use

@@ -19,6 +19,9 @@ class RestShapes {
   //! @param points [P x 3] m, of the object itself as it is now
   virtual void setPresent(const double* points) = 0;
 
+  //! Where grips turn: the orientations [agents] of all of them in the shapes to be found.
+  virtual void setOrientations(const std::vector<Quaternion>& /*orientations*/) {}
+
   //! Forgets the shapes found: the next searches start from the present shape.
   virtual void forget() = 0;
 

@@ -36,8 +36,10 @@ class Rod final : public Body {
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
   double stretch() const override;
   std::string softness(double time_step, int substeps) const override;
-  Wrench wrench(int particle) const override;
+  Wrench wrench(int particle, int copy = 0) const override;
   ResponseStatus response(double* to) override;
+  bool turningResponse(double* to) const override;
+  bool wrenchResponse(double* to) const override;
   std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
   void layOut() override;
 

@@ -13,6 +13,7 @@ namespace pbd {
 struct EquilibriumOptions {
   double tolerance = 1e-5;  //!< of the last step, turns [rad] and relative forces; the error left is about its square
   int iterations = 20;      //!< at most, per start
+  bool turned = false;      //!< updateElsewhere(): clamped segments may be turned against the rod's present shape
 };
 
 //! The quasi-static equilibrium of a rod's copies by Newton's method, and its exact derivative with
@@ -49,6 +50,18 @@ class RodEquilibrium {
   //! Derivatives of a copy's points with respect to its held points, [holds x pointCount x 3 x 3].
   //! @throw std::logic_error unless VALID
   void response(int copy, double* to) const;
+
+  //! The same by turns [rad] about each held point, [holds x pointCount x 3 x 3] m; zero where a hold is pinned.
+  //! @throw std::logic_error unless VALID
+  void turningResponse(int copy, double* to) const;
+
+  //! What a copy exerts on its agents, [holds x 6]: force [N], torque about the held point [N m].
+  //! @throw std::logic_error unless VALID
+  void wrenches(int copy, double* to) const;
+
+  //! Derivatives of these with respect to each held point and turns about it, [holds x 6 x holds x 6].
+  //! @throw std::logic_error unless VALID
+  void wrenchResponse(int copy, double* to) const;
 
  private:
   void requireValid(int copy) const;

@@ -19,6 +19,7 @@ class RodRestShapes final : public RestShapes {
 
   int pointCount() const override { return rod_->pointCount(); }
   void setPresent(const double* points) override;
+  void setOrientations(const std::vector<Quaternion>& orientations) override;
   void forget() override { equilibrium_ = RodEquilibrium(); }
   void find(const std::vector<Vector3>& held) override;
   bool known(int shape) const override;
@@ -27,9 +28,11 @@ class RodRestShapes final : public RestShapes {
 
  private:
   bool isFarFromPresent() const;
+  void search();
 
   std::unique_ptr<Rod> rod_;
   RodEquilibrium equilibrium_;
+  bool turns_ = false;  // the orientations are not those from the start
   std::vector<int> agent_of_hold_;
   std::vector<Vector3> held_;    // [shapes x holds] m
   std::vector<double> present_;  // [P x 3] m

@@ -118,6 +118,19 @@ class Simulation {
   //! @param to [agents x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
   ResponseStatus response(double* to);
 
+  //! The same by turns about each held point, for the equilibrium that the last response() found, if it was VALID.
+  //! @param to [agents x pointCount x 3 x 3] m. @return false: not available
+  bool turningResponse(double* to) const;
+
+  //! What the object and its copies exert on all agents: force [N] and torque about the held point [N m].
+  //! @param to [copies x agents x 6]
+  void wrenches(double* to) const;
+
+  //! Derivative of the object's wrenches with respect to each held point and turns about it, in the equilibrium that
+  //! the last response() found, if it was VALID.
+  //! @param to [agents x 6 x agents x 6]. @return false: not available
+  bool wrenchResponse(double* to) const;
+
   long cycle() const { return cycle_; }
   int resetCount() const { return reset_count_; }
   double time() const { return cycle_ * clock_.cycleTime(); }  //!< [s] since the start
@@ -135,6 +148,7 @@ class Simulation {
   AgentState& state(int agent) { return states_.at(static_cast<std::size_t>(agent)); }
   const AgentState& state(int agent) const { return states_.at(static_cast<std::size_t>(agent)); }
   void settle();
+  void spreadOverAgents(std::size_t numbers, double* to) const;
 
   std::vector<Agent> agents_;
   Clock clock_;
@@ -142,8 +156,8 @@ class Simulation {
   std::vector<AgentState> states_;
   std::unique_ptr<Body> start_body_;  // as settled
   std::vector<AgentState> start_states_;
-  std::vector<double> response_;  // of the holds, in the body's order
-  bool start_changed_ = false;    // since start_body_ was settled
+  mutable std::vector<double> response_;  // of the holds, in the body's order
+  bool start_changed_ = false;            // since start_body_ was settled
   Rest rest_ = Rest::MOVING;
   long cycle_ = 0;
   int reset_count_ = 0;

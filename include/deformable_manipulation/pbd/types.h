@@ -8,6 +8,7 @@ namespace deformable_manipulation {
 namespace pbd {
 
 using Vector3 = Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Quaternion = Eigen::Quaterniond;
 
 //! How an agent holds a particle.
@@ -32,6 +33,9 @@ struct Twist {
 struct Wrench {
   Vector3 force = Vector3::Zero();
   Vector3 torque = Vector3::Zero();
+
+  //! Force, then torque.
+  Vector6 numbers() const { return (Vector6() << force, torque).finished(); }
 };
 
 //! A material parameter by the name it has in the scenario file.

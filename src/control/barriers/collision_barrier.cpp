@@ -25,6 +25,9 @@ double sumOfSquares(const Features& features, int feature, const std::vector<int
   double sum = 0.0;
   for (const int agent : agents) {
     sum += features.gradient(feature, agent).squaredNorm() + NEGLIGIBLE;
+    if (features.haveTurns()) {
+      sum += features.turn(feature, agent).squaredNorm();
+    }
   }
   return sum;
 }
@@ -55,8 +58,14 @@ void CollisionBarrier::addRows(const Features& features, const PredictedState& s
       reach += team_.max_velocity * features.gradient(m, agent).lpNorm<1>();
     }
     const double h = predictedDistance(features, m, state) - parameters_.offset - margin;
-    const double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m)) +
-                           std::min(0.0, features.disturbance[m]);
+    double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m)) +
+                     std::min(0.0, features.disturbance[m]);
+    if (team_.turns && features.haveTurns()) {
+      carried += features.turn(m, team_.leader).dot(state.angular_velocities[team_.leader]);
+      for (const int agent : team_.commanded) {
+        reach += team_.max_angular_velocity * features.turn(m, agent).lpNorm<1>();
+      }
+    }
     const double share = team_.formulation.shares ? shareOf(features, m) : 1.0;
     const double loose = looseness(features.distance[m] - features.distance[0], parameters_.band);
     const auto boundOf = [&](const PiecewiseLinearClassK& alpha) {
@@ -66,6 +75,9 @@ void CollisionBarrier::addRows(const Features& features, const PredictedState& s
     const auto fill = [&](Eigen::Map<Eigen::VectorXd> row) {
       for (std::size_t i = 0; i < team_.commanded.size(); ++i) {
         row.segment<3>(3 * i) = features.gradient(m, team_.commanded[i]);
+        if (team_.turns && features.haveTurns()) {
+          row.segment<3>(team_.turnOf(static_cast<int>(i))) = features.turn(m, team_.commanded[i]);
+        }
       }
     };
     fill(rows.limit(boundOf(parameters_.alpha)));
@@ -90,6 +102,9 @@ double CollisionBarrier::predictedDistance(const Features& features, int feature
                 std::min(0.0, features.disturbance[feature]);
   for (const int assistant : team_.assistants) {
     rate += features.gradient(feature, assistant).dot(state.velocities[assistant] - leader_velocity);
+  }
+  for (int agent = 0; team_.turns && features.haveTurns() && agent < features.agents(); ++agent) {
+    rate += features.turn(feature, agent).dot(state.angular_velocities[agent]);
   }
   return features.distance[feature] + state.delay * rate;
 }

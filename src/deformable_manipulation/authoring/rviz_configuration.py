@@ -47,7 +47,7 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_DISPLAYS],
+            "Displays": [_grid(low, high, flat), *_displays(scenario)],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
@@ -106,6 +106,14 @@ _DISPLAYS = (
         "Value": False,
     },
 )
+
+
+def _displays(scenario):
+    """With the axes of the grips, where these turn."""
+    axes = {**_DISPLAYS[-1], "Enabled": scenario.controller.turns}
+    return [*_DISPLAYS[:-1], {**axes, "Value": scenario.controller.turns}]
+
+
 # The first is the one in the hand: it drags markers, and moves the camera elsewhere.
 _TOOLS = [
     {"Class": "rviz/Interact", "Hide Inactive Objects": False},

@@ -10,6 +10,7 @@ from scipy.signal import butter, sosfiltfilt
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.timeseries import TimeSeries, vector_columns
+from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.stretch import largest_stretch
 
@@ -18,6 +19,7 @@ DEADLOCK_ERROR = 0.05  # m
 DEADLOCK_TIME = 3.0  # s
 OSCILLATION_FREQUENCY = 1.0  # Hz
 _FILTER_ORDER = 4
+_ROUNDING = 1e-9
 
 # Whether a run could be answered: it was; nobody could; one who knows the path could; not known.
 KEPT, IMPOSSIBLE, POSSIBLE, UNKNOWN = "kept", "impossible", "possible", "unknown"
@@ -33,7 +35,7 @@ class RunOutcome:
     completed: bool  # False: the simulation broke down; then only what was until then counts
     problem: str  # why it was not completed, or empty
     min_distance: float  # m; inf: no obstacle
-    violations: Mapping[str, float]  # m, of each barrier, by name
+    violations: Mapping[str, float]  # of each barrier, by name, in its unit
     deadlock: bool  # an assistant stays away from its place though nothing is in the way
     stuck: bool  # an assistant stays away from its place, whatever is in the way
     relaxed: int  # quadratic programs
@@ -50,8 +52,10 @@ class RunOutcome:
     least_overstretch: float = 0.0  # m, by which anybody must exceed the limits of stretch
 
     def misses(self, tolerance: float) -> bool:
-        """Whether a limit was missed by more than the tolerance [m], or the run broke down."""
-        return not self.completed or any(each > tolerance for each in self.violations.values())
+        """Whether a limit was missed, lengths by more than the tolerance [m], or it broke down."""
+        return not self.completed or any(
+            each > tolerance_of(name, tolerance) for name, each in self.violations.items()
+        )
 
     def to_mapping(self) -> Dict[str, object]:
         """All fields by name, the violations as ``violation_NAME``."""
@@ -59,6 +63,16 @@ class RunOutcome:
         for name, violation in mapping.pop("violations").items():
             mapping[f"violation_{name}"] = violation
         return mapping
+
+
+def tolerance_of(barrier: str, tolerance: float) -> float:
+    """Up to where a violation does not count: of loads, which keep a reserve, rounding alone.
+
+    Args:
+        barrier: its name.
+        tolerance: [m], of lengths.
+    """
+    return _ROUNDING if BARRIERS[barrier].is_load else tolerance
 
 
 def assess(

@@ -5,15 +5,22 @@ from typing import Any, Dict, List, Sequence, Tuple
 import numpy as np
 
 from deformable_manipulation.campaign.confidence import interval
-from deformable_manipulation.campaign.outcome import IMPOSSIBLE, POSSIBLE, UNKNOWN, RunOutcome
+from deformable_manipulation.campaign.outcome import (
+    IMPOSSIBLE,
+    POSSIBLE,
+    UNKNOWN,
+    RunOutcome,
+    tolerance_of,
+)
 from deformable_manipulation.markdown.table import table
+from deformable_manipulation.scenario.barriers import BARRIERS
 
 
 def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any]:
-    """Counts and worst values; lengths in m.
+    """Counts and worst values; lengths in m, loads in their units.
 
     Args:
-        tolerance: [m] up to which a violation does not count.
+        tolerance: [m] up to which a violation of a length does not count.
     """
     finished = [outcome for outcome in outcomes if outcome.completed]
     summary: Dict[str, Any] = {
@@ -68,7 +75,7 @@ def describe(summary: Dict[str, Any]) -> str:
     """The summary for a reader at a terminal."""
     lines: List[str] = ["{runs} runs, {not_completed} not completed".format(**summary)]
     for name, violation in summary["violations"].items():
-        worst_of_all = _millimetres(violation["worst"])
+        worst_of_all = BARRIERS[name].show(violation["worst"], 2)
         lines.append(
             f"{name + ' violated':22}{violation['runs']} runs, {_percent(violation)}, "
             f"by {worst_of_all} at worst"
@@ -120,15 +127,16 @@ def describe_classes(classes: Sequence[Sequence[RunOutcome]], tolerance: float) 
         cells = [first.path, f"{first.speed:g}", first.leader, str(runs)]
         for name in names:
             violation = summary["violations"].get(name)
-            cells.append("" if violation is None else _missed(violation))
+            cells.append("" if violation is None else _missed(violation, name))
         cells += [_fraction(summary["stuck"]), str(summary["deadlocks"])]
         cells.append(str(summary["relaxed_programs"]))
         rows.append(cells + [str(count) for count in summary["answers"].values()])
     return table(header, rows)
 
 
-def _missed(violation) -> str:
-    worst_of_all = f", by {_millimetres(violation['worst'])}" if violation["runs"] else ""
+def _missed(violation, name) -> str:
+    amount = BARRIERS[name].show(violation["worst"], 2)
+    worst_of_all = f", by {amount}" if violation["runs"] else ""
     return f"{_fraction(violation)}{worst_of_all}"
 
 
@@ -148,7 +156,7 @@ def _limits(outcomes: Sequence[RunOutcome]) -> List[str]:
 
 def _violations(outcomes, name, tolerance):
     amounts = [outcome.violations.get(name, 0.0) for outcome in outcomes]
-    counted = _counted(amounts, lambda amount: amount > tolerance)
+    counted = _counted(amounts, lambda amount: amount > tolerance_of(name, tolerance))
     return {**counted, "worst": max(amounts, default=0.0)}
 
 

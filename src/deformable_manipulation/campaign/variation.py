@@ -8,10 +8,11 @@ import numpy as np
 
 from deformable_manipulation.campaign.leader_paths import PLACES, NoPath, random_path
 from deformable_manipulation.campaign.terrain import random_obstacle
+from deformable_manipulation.control.overload import has_load_limits
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.running.closed_loop import make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
@@ -20,7 +21,7 @@ from deformable_manipulation.scenario.spec import (
 )
 from deformable_manipulation.simulation.factory import make_simulation
 
-_ATTEMPTS = 20
+_ATTEMPTS = 100
 _BOX_GROWTH = 0.1  # m, of the box that the scenario's own path is in
 _START_SHIFT = 0.05  # m, of an assistant's start
 _PLACES = 50  # of a moving obstacle on its way, which the leader's path keeps clear of
@@ -64,9 +65,9 @@ def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
         except (NoPath, ScenarioError) as error:
             reason = str(error)
             continue
-        if _starts_clear(varied):
+        reason = _problem_at_start(varied)
+        if not reason:
             return varied
-        reason = "the object starts too close to the obstacles"
     raise NoVariation(
         f"run {index}: none of {_ATTEMPTS} random variations can be started: {reason}"
     )
@@ -155,8 +156,16 @@ def _clearance(scenario: Scenario):
     return clearance
 
 
-def _starts_clear(scenario: Scenario) -> bool:
+def _problem_at_start(scenario: Scenario) -> str:
+    """Why nobody would start so; empty: it is fine."""
     distance = make_minimum_distance(scenario)
     MovingObstacles(scenario).move(distance, 0.0)
     lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
-    return lowest >= scenario.controller.collision.offset + _SPARE
+    if lowest < scenario.controller.collision.offset + _SPARE:
+        return "the object starts too close to the obstacles"
+    if has_load_limits(scenario):
+        try:
+            ClosedLoop(scenario)
+        except ScenarioError as error:
+            return str(error)
+    return ""

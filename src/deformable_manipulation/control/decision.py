@@ -12,6 +12,10 @@ def _unknown_vector():
     return np.full(3, np.nan)
 
 
+def _no_turning():
+    return np.zeros(3)
+
+
 @dataclass(frozen=True)
 class Decision:
     """One cycle of an assistant's controller; what ControllerState.msg tells.
@@ -25,11 +29,16 @@ class Decision:
     enabled: bool
     command: np.ndarray  # (3,) m/s, of the own held point
     nominal: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m/s
+    # (3,) rad/s, of the own grip, and what it would be without limits; nan: grips do not turn
+    angular_command: np.ndarray = field(default_factory=_no_turning)
+    angular_nominal: np.ndarray = field(default_factory=_unknown_vector)
+    # (3,) rad, rotation vector from the present to the wanted orientation; nan likewise
+    orientation_error: np.ndarray = field(default_factory=_unknown_vector)
     position: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, own held point
     target: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, leader plus reference
     error: np.ndarray = field(default_factory=_unknown_vector)  # (3,) m, target minus position
     distance: float = np.nan  # m, signed minimum of the object; inf: no obstacle
-    h: Mapping[str, float] = field(default_factory=dict)  # the lowest of each barrier [m], by name
+    h: Mapping[str, float] = field(default_factory=dict)  # the lowest of each barrier, by name
     jacobian: np.ndarray = field(default_factory=_unknown_vector)  # (3,) 1, d distance / d position
     exact_jacobian: bool = False  # from the equilibrium; False: from perturbed copies
     coordinated: bool = False  # decided together with all assistants; False: by shares

@@ -27,8 +27,17 @@ class Observation:
     distances: Distances  # of all C copies
     # (A, 3) m/s, of the held points; None: to be found from the positions
     velocities: Optional[np.ndarray] = None
+    orientations: Optional[np.ndarray] = None  # (A, 4) x, y, z, w of the grips; None: not told
+    # (A, 3) rad/s, of the grips; None: to be found from the orientations
+    angular_velocities: Optional[np.ndarray] = None
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
+    # (A, P, 3, 3) m/rad, d point / d turn about the held point, at rest; None: not known
+    turning_sensitivities: Optional[np.ndarray] = None
+    # (C, A, 6) N and N m about the held point, that each copy exerts on the agents; None: not told
+    wrenches: Optional[np.ndarray] = None
+    # (A, 6, A, 6) d wrench / d held point, turn, of the object at rest; None: not known
+    wrench_sensitivities: Optional[np.ndarray] = None
     obstacles: Optional[np.ndarray] = None  # (K, 7) poses of those that move: m, x, y, z, w
     intent: Optional[Intent] = None  # where the leader will be; None: it announces nothing
     lateness: float = 0.0  # s, delay beyond one cycle until commands that answer it act

@@ -45,6 +45,7 @@ def native_parameters(scenario: Scenario, names: Sequence[str], safety: bool) ->
         "own": [commanded.index(index) for index in own],
         "references": starts[commanded] - starts[leader],
         "places": starts - starts[leader],
+        "orientations": [list(agent.orientation) for agent in scenario.agents],
         "cycle_time": scenario.cycle_time,
         "safety": safety,
         "barriers": list(scenario.controller.barriers),
@@ -56,8 +57,7 @@ def _controller(scenario: Scenario) -> Dict[str, Any]:
     mapping = controller_to_mapping(scenario)
     mapping["priority"] = list(scenario.controller.priority or scenario.controller.barriers)
     for name in scenario.controller.barriers:
-        derive = BARRIERS[name].derive
-        mapping[name].update(derive(scenario.object, scenario.agents, scenario.controller))
+        mapping[name].update(BARRIERS[name].derive(scenario))
     return mapping
 
 

@@ -6,6 +6,7 @@ from deformable_manipulation import _control
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.forecast import Forecast
 from deformable_manipulation.control.observation import wrong_type
+from deformable_manipulation.control.overload import find_overloads
 from deformable_manipulation.control.parameters import native_parameters
 from deformable_manipulation.control.reference_solver import find_solver
 from deformable_manipulation.control.status import DetourState, Status
@@ -54,6 +55,7 @@ class TeamController:
     def __init__(self, scenario, names, safety=True, trusting=False):
         self._safety = safety
         self._barriers = scenario.controller.barriers
+        self._needs_wrenches = safety and scenario.controller.needs_wrenches
         parameters = native_parameters(scenario, names, safety)
         agents = [scenario.agents[index].name for index in parameters.team["commanded"]]
         numbers = {name: number for number, name in enumerate(agents)}
@@ -62,6 +64,7 @@ class TeamController:
         self._native = _control.TeamController(*parameters, find_solver(scenario.controller.solver))
         self._native.set_trusting(trusting)
         self._last = None
+        self._refusal = None  # a clause that says why it does not begin; None: not known yet
         self._forecast = None
         if safety:
             self._forecast = Forecast(scenario)
@@ -129,6 +132,7 @@ class TeamController:
     def reset(self):
         """Go back to the start: forget all states and use the scenario's references again."""
         self._native.reset()
+        self._refusal = None
 
     def take_reference(self, name, observation):
         """Let an assistant follow the leader at its present relative position from now on.
@@ -154,7 +158,7 @@ class TeamController:
             A :class:`~.decision.Decision` for each assistant by its name.
         """
         started = time.perf_counter()
-        fault = wrong_type(observation)
+        fault = wrong_type(observation) or self._lacking(observation) or self._refusal
         if fault:
             self._last = self.wait(fault)
             return self._last
@@ -164,7 +168,21 @@ class TeamController:
         if answer is not None:
             computation_time = time.perf_counter() - started
             self._last = self._decisions(answer.decisions, answer.fault, computation_time)
+            if self._refusal is None and not answer.fault:
+                self._last = self._judged(self._last)
         return self._last
+
+    def _judged(self, decisions):
+        """The decisions on the first state, unless a limit of the object's loads is broken."""
+        overloads = find_overloads({name: decision.h for name, decision in decisions.items()})
+        self._refusal = "; ".join(map(str, overloads)) if self._safety else ""
+        return self.wait(self._refusal) if self._refusal else decisions
+
+    def _lacking(self, observation):
+        """A clause if the observation does not tell what a barrier depends on."""
+        if self._needs_wrenches and observation.wrenches is None:
+            return "the state does not tell the wrenches at the grips, which barriers depend on"
+        return ""
 
     def wait(self, reason):
         """Slow down to rest, and stand still, because an input is missing or unusable.
@@ -178,18 +196,20 @@ class TeamController:
         """
         return self._decisions(self._native.wait(), reason)
 
-    def margins(self, name, positions, distance):
-        """The lowest h of each barrier in any state, not only the observed one.
+    def margins(self, name, observation):
+        """The lowest h of each barrier in any state, not only the one that was answered.
 
         Args:
             name: of the assistant.
-            positions: (A, 3) held points of all agents [m].
-            distance: signed minimum distance of the object [m].
+            observation: :class:`~.observation.Observation`.
 
         Returns:
-            A mapping from the barriers' names [m], without margins.
+            A mapping from the barriers' names, without margins, in the units of their kinds.
+
+        Raises:
+            ValueError: the observation is not valid; the message names the field.
         """
-        return self._by_barrier(self._native.margins(self._members[name], positions, distance))
+        return self._by_barrier(self._native.margins(self._members[name], observation))
 
     def _decisions(self, natives, fault="", computation_time=0.0):
         everybody = {**self._members, **self._others}
@@ -213,6 +233,9 @@ class TeamController:
             detour=detour,
             command=native.command,
             nominal=native.nominal,
+            angular_command=native.angular_command,
+            angular_nominal=native.angular_nominal,
+            orientation_error=native.orientation_error,
             position=position,
             target=target,
             error=target - position,

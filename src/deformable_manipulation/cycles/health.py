@@ -9,6 +9,7 @@ from typing import Dict
 import numpy as np
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.scenario.barriers import BARRIERS
 
 _SLOW = 0.9  # of the wanted rate, below which it is worth a warning
 _TOO_SLOW = 0.5
@@ -158,7 +159,8 @@ def _decision_values(decisions):
     values["lowest distance [m]"] = _lowest([decision.distance for decision in decisions])
     for name in _barriers(decisions):
         h = [decision.h.get(name, np.nan) for decision in decisions]
-        values[f"lowest h, {name} [m]"] = _lowest(h)
+        unit = BARRIERS[name].unit if name in BARRIERS else "m"
+        values[f"lowest h, {name} [{unit}]"] = _lowest(h)
         values[f"largest slack, {name} [m/s]"] = f"{_largest(decisions, name):.6f}"
     values["error at the end [m]"] = f"{decisions[-1].error_norm:.4f}"
     values["constraints, at most"] = str(max(decision.rows for decision in decisions))

@@ -151,7 +151,7 @@ class RodSpec(ObjectSpec):
         if self.segments <= _FEW_SEGMENTS:
             return _SUBSTEPS
         # The balance of weight and bending stiffness at the ends of a hanging rod.
-        bend = math.sqrt(2.0 * self._bending_stiffness() / (self._mass() * _GRAVITY)) / self.length
+        bend = math.sqrt(2.0 * self._bending_stiffness() / (self.mass * _GRAVITY)) / self.length
         return next(count for least, count in _SUBSTEPS_OF_CHAINS if bend >= least)
 
     def valid_stretch(self, gravity: Vector) -> float:
@@ -184,9 +184,10 @@ class RodSpec(ObjectSpec):
     @property
     def stiffness_over_mass(self) -> float:
         """Bending stiffness over mass per length, E I / (rho A) [m^4/s^2]."""
-        return self._bending_stiffness() * self.length / self._mass()
+        return self._bending_stiffness() * self.length / self.mass
 
-    def _mass(self) -> float:
+    @property
+    def mass(self) -> float:
         """Of the whole rod [kg]."""
         return self.density * math.pi * self.radius**2 * self.length
 
@@ -208,7 +209,7 @@ class RodSpec(ObjectSpec):
                 self.density,
                 self.young_modulus,
                 self.torsion_modulus,
-                self._mass(),
+                self.mass,
                 self._bending_stiffness(),
             )
         )

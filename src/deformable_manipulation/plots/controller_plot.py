@@ -1,7 +1,7 @@
 """The paper's data plots: what one controller saw and decided, in one column's width."""
 
 from itertools import cycle
-from typing import List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib import rc_context
@@ -30,6 +30,7 @@ from deformable_manipulation.plots.style import (
 )
 from deformable_manipulation.recording.run_data import AssistantSeries, RunData
 from deformable_manipulation.recording.timeseries import AXES
+from deformable_manipulation.scenario.barriers import BARRIERS
 
 PANEL_HEIGHT = 1.1  # in, with its legend
 MARGIN_HEIGHT = 0.7  # in, legend above and time axis below the panels
@@ -52,14 +53,16 @@ def plot_controller(
     """Draw the data plot of one controller of a run.
 
     Panels over a shared time axis: distance to the obstacle with its limit, norm of the tracking
-    error, margins of the other barriers, and every moving component of the nominal and the
-    commanded velocity. Shading shows what the safety filter did. Violations of a limit are filled
-    and marked at their worst.
+    error, margins of the other barriers in a panel for each unit, and every moving component of
+    the nominal and the commanded velocity and angular velocity. Shading shows what the safety
+    filter did. Violations of a limit are filled and marked at their worst.
 
     Draws into ``figure`` when given (a window's), else into a new one without a window.
     """
     components = _moving_components(series)
-    panels = 3 + len(components)
+    turning = _turning_components(series)
+    units = _units(series)
+    panels = 2 + len(units) + len(components) + len(turning)
     with rc_context(STYLE):
         figure = figure if figure is not None else Figure()
         figure.set_size_inches(COLUMN_WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * panels)
@@ -69,10 +72,14 @@ def plot_controller(
         axes[1].plot(series.time, series.error_norm, color=BLUE)
         axes[1].set_ylabel("error [m]")
         start_at_zero(axes[1])
-        violated |= _plot_margins(axes[2], series)
-        for axis, component in zip(axes[3:], components):
+        for axis, (unit, names) in zip(axes[2:], units.items()):
+            violated |= _plot_margins(axis, series, unit, names)
+        velocities = axes[2 + len(units) :]
+        for axis, component in zip(velocities, components):
             _plot_velocity(axis, series, component)
-        _legend_above(axes[3])
+        for axis, (name, nominal, command) in zip(velocities[len(components) :], turning):
+            _plot_turning(axis, series.time, name, nominal, command)
+        _legend_above(velocities[0])
         _finish_figure(figure, axes, run, series, violated)
     return figure
 
@@ -100,16 +107,30 @@ def _finish_figure(
     )
 
 
-def _plot_margins(axis: Axes, series: AssistantSeries) -> bool:
-    """Draw all barriers' margins but that of the distance; true where one falls below zero."""
-    axis.set_ylabel("margin [m]")
+def _units(series: AssistantSeries) -> Dict[str, List[str]]:
+    """Names of the barriers by the units of their margins, but for that of the distance."""
+    units: Dict[str, List[str]] = {"m": []}
+    for name in series.h:
+        if name != "collision":
+            units.setdefault(_unit(name), []).append(name)
+    return units
+
+
+def _unit(name: str) -> str:
+    """Recordings may have barriers that are not known here."""
+    return BARRIERS[name].unit if name in BARRIERS else "m"
+
+
+def _plot_margins(axis: Axes, series: AssistantSeries, unit: str, names: Sequence[str]) -> bool:
+    """Draw the margins of barriers of one unit; true where one falls below zero."""
+    axis.set_ylabel(f"margin [{unit}]")
     draw_limit(axis, 0.0)
     violated = False
-    between = {name: values for name, values in series.h.items() if name != "collision"}
-    for (name, values), (colour, style) in zip(between.items(), cycle(MARGIN_LINES)):
+    for name, (colour, style) in zip(names, cycle(MARGIN_LINES)):
+        values = series.h[name]
         margin = np.where(np.isfinite(values), values, np.nan)
         if not np.isnan(margin).all():
-            label = with_lowest(name, margin)
+            label = with_lowest(name, margin, unit)
             axis.plot(series.time, margin, color=colour, linestyle=style, label=label)
             violated |= mark_violation(axis, series.time, margin, 0.0)
     _legend_above(axis)
@@ -121,6 +142,14 @@ def _plot_velocity(axis: Axes, series: AssistantSeries, component: int) -> None:
     axis.set_ylabel(f"velocity {AXES[component]} [m/s]")
     axis.plot(series.time, command, color=BLUE, label="commanded")
     axis.plot(series.time, nominal, color=ORANGE, linestyle="--", label="nominal")
+
+
+def _plot_turning(
+    axis: Axes, time: np.ndarray, name: str, nominal: np.ndarray, command: np.ndarray
+) -> None:
+    axis.set_ylabel(f"turning {name} [rad/s]")
+    axis.plot(time, command, color=BLUE)
+    axis.plot(time, nominal, color=ORANGE, linestyle="--")
 
 
 def _legend_above(axis: Axes) -> None:
@@ -152,6 +181,20 @@ def _intervals(time: np.ndarray, active: np.ndarray) -> List[Tuple[float, float]
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     ends = np.minimum(ends, len(time) - 1)
     return [(time[start], time[end] - time[start]) for start, end in zip(starts, ends)]
+
+
+def _turning_components(
+    series: AssistantSeries,
+) -> List[Tuple[str, np.ndarray, np.ndarray]]:
+    """Each axis about which the grip turns or would, with both velocities (M,) [rad/s]."""
+    if series.turning is None:
+        return []
+    components = zip(AXES, series.turning.nominal.T, series.turning.command.T)
+    return [
+        (name, nominal, command)
+        for name, nominal, command in components
+        if np.abs(np.nan_to_num(np.concatenate((nominal, command)))).max() > MOVING
+    ]
 
 
 def _moving_components(series: AssistantSeries) -> List[int]:

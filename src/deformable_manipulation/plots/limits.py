@@ -54,6 +54,8 @@ def start_at_zero(axis: Axes) -> None:
     axis.set_ylim(bottom=0.0, top=max(axis.get_ylim()[1], _LEAST_RANGE))
 
 
-def with_lowest(name: str, values: np.ndarray) -> str:
-    """A label with the lowest of some lengths [m]."""
-    return f"{name} (min {millimetres(float(np.nanmin(values)))})"
+def with_lowest(name: str, values: np.ndarray, unit: str = "m") -> str:
+    """A label with the lowest of some lengths [m], or of values of another unit."""
+    lowest = float(np.nanmin(values))
+    text = millimetres(lowest) if unit == "m" else f"{lowest:.3g} {unit}"
+    return f"{name} (min {text})"

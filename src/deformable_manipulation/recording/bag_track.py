@@ -8,7 +8,12 @@ import numpy as np
 from rosbags.rosbag1 import Reader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from deformable_manipulation.recording.run_data import H_PREFIX, SERIES_COLUMNS, RunDataError
+from deformable_manipulation.recording.run_data import (
+    H_PREFIX,
+    SERIES_COLUMNS,
+    TURNING_SERIES_COLUMNS,
+    RunDataError,
+)
 
 CONTROLLER_STATE = "deformable_manipulation/msg/ControllerState"
 DISTANCES = "deformable_manipulation/msg/Distances"
@@ -36,6 +41,13 @@ def _barrier_values(message) -> Dict[str, float]:
     if hasattr(message, H_PREFIX + _FIRST_BARRIERS[0]):
         return {H_PREFIX + name: getattr(message, H_PREFIX + name) for name in _FIRST_BARRIERS}
     return {}
+
+
+def _turning_values(message) -> Dict[str, float]:
+    """How the grip turns, by columns; none of distances and of earlier versions."""
+    return {
+        name: getattr(message, name) for name in TURNING_SERIES_COLUMNS if hasattr(message, name)
+    }
 
 
 _EXTRACTORS: Dict[str, Tuple[Tuple[str, ...], Callable]] = {
@@ -92,13 +104,13 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
     typestore = get_typestore(Stores.ROS1_NOETIC)
     typestore.register(get_types_from_msg(connections[0].msgdef.data, msgtype))
     names, extract = _EXTRACTORS[msgtype]
-    received, rows, barriers, agent = [], [], [], ""
+    received, rows, others, agent = [], [], [], ""
     try:
         for _, time, data in reader.messages(connections):
             message: Any = typestore.deserialize_ros1(data, msgtype)
             received.append(time)
             rows.append(_key(message) + extract(message))
-            barriers.append(_barrier_values(message))
+            others.append({**_barrier_values(message), **_turning_values(message)})
         if rows and msgtype == CONTROLLER_STATE:
             agent = message.agent
     except AttributeError as error:
@@ -119,7 +131,7 @@ def read_track(reader: Reader, topic: str) -> Optional[Track]:
         stamp=table[:, 2].astype(np.int64) * 10**9 + table[:, 3].astype(np.int64),
         columns={
             **{name: table[:, 4 + index] for index, name in enumerate(names)},
-            **_stacked(barriers),
+            **_stacked(others),
         },
     )
 

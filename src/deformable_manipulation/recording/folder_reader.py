@@ -13,6 +13,7 @@ from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.run_data import (
     H_PREFIX,
     SERIES_COLUMNS,
+    TURNING_SERIES_COLUMNS,
     RunData,
     RunDataError,
     make_assistant_series,
@@ -66,7 +67,8 @@ def _series_columns(agent: str, header: List[str]) -> List[str]:
     """Columns of an assistant that its series is made of: fixed ones, and those of its barriers."""
     start = f"{agent}.{H_PREFIX}"
     barriers = [name[len(agent) + 1 :] for name in header if name.startswith(start)]
-    return [*SERIES_COLUMNS, *barriers]
+    turning = [name for name in TURNING_SERIES_COLUMNS if f"{agent}.{name}" in header]
+    return [*SERIES_COLUMNS, *turning, *barriers]
 
 
 def _read_summary(path: Path) -> dict:

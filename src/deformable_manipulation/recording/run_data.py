@@ -15,6 +15,14 @@ class RunDataError(Exception):
 
 
 @dataclass(frozen=True)
+class TurningSeries:
+    """How the grip of an assistant turned, M samples."""
+
+    nominal: np.ndarray  # (M, 3) rad/s
+    command: np.ndarray  # (M, 3) rad/s
+
+
+@dataclass(frozen=True)
 class AssistantSeries:
     """What the controller of one assistant saw and decided, M samples; nan: unknown then."""
 
@@ -22,11 +30,12 @@ class AssistantSeries:
     time: np.ndarray  # (M,) s, 0 at cycle 0
     distance: np.ndarray  # (M,) m, of the object itself; inf: no obstacle
     error_norm: np.ndarray  # (M,) m
-    h: Mapping[str, np.ndarray]  # (M,) m, the lowest of each barrier, by name
+    h: Mapping[str, np.ndarray]  # (M,) the lowest of each barrier, by name, in its unit
     nominal_velocity: np.ndarray  # (M, 3) m/s
     command: np.ndarray  # (M, 3) m/s
     target: np.ndarray  # (M, 3) m, the place that it would keep
     status: np.ndarray  # (M,) int, the constants of ControllerState
+    turning: Optional[TurningSeries] = None  # None: grips do not turn
 
 
 @dataclass(frozen=True)
@@ -75,9 +84,13 @@ def make_assistant_series(
         command=_stack(columns, "command"),
         target=_stack(columns, "target"),
         status=status.astype(int),
+        turning=_turning(columns),
     )
 
 
+NOMINAL_TURNING, TURNING = "nominal_angular_velocity", "angular_velocity"
+# Columns that only assistants have whose grips turn.
+TURNING_SERIES_COLUMNS = vector_columns(NOMINAL_TURNING) + vector_columns(TURNING)
 H_PREFIX = "h_"  # of the columns with the barriers' values
 
 # Columns of an assistant in the time series that make_assistant_series needs, beside those.
@@ -87,6 +100,15 @@ SERIES_COLUMNS = (
     + vector_columns("command")
     + vector_columns("target")
 )
+
+
+def _turning(columns: Mapping[str, np.ndarray]) -> Optional[TurningSeries]:
+    """None without its columns, and where nothing is known in them."""
+    if not all(name in columns for name in TURNING_SERIES_COLUMNS):
+        return None
+    nominal = _stack(columns, NOMINAL_TURNING)
+    known = np.isfinite(nominal).any()
+    return TurningSeries(nominal, _stack(columns, TURNING)) if known else None
 
 
 def offset_of(assistants: Tuple[AssistantSeries, ...]) -> Optional[float]:

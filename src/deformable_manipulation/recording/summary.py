@@ -32,8 +32,8 @@ def summarise(
 
     ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
-    ``min_margin`` the lowest h of each barrier over the run, ``max_stretch`` the largest
-    relative change of length anywhere in it; where that is more than
+    ``min_margin`` the lowest h of each barrier over the run, in its unit, ``max_stretch`` the
+    largest relative change of length anywhere in it; where that is more than
     what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
     Lengths are in m, times in s unless the key says ms. Of ``timing``, ``solver`` is one quadratic
     program where the nominal velocity alone would not do.
@@ -129,7 +129,7 @@ def _outcome_lines(summary: dict) -> List[str]:
     for name, margin in summary["min_margin"].items():
         if name != "collision":  # told as distance
             label = "lowest {}".format(BARRIERS[name].margin)
-            lines.append("{:27}{}".format(label, _millimetres(margin)))
+            lines.append("{:27}{}".format(label, BARRIERS[name].show(margin)))
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))

@@ -24,8 +24,21 @@ AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
 TIMING_COLUMNS = ("simulation", "distance", "controller")
 
 
-def assistant_columns(barriers: Sequence[str]) -> Tuple[str, ...]:
-    """Names of an assistant's columns, for the barriers in use."""
+# Of assistants whose grips turn.
+TURNING_COLUMNS = (
+    vector_columns("orientation_error")
+    + vector_columns("nominal_angular_velocity")
+    + vector_columns("angular_velocity")
+)
+
+
+def assistant_columns(barriers: Sequence[str], turns: bool = False) -> Tuple[str, ...]:
+    """Names of an assistant's columns, for the barriers in use.
+
+    Args:
+        barriers: their names.
+        turns: whether the grips turn.
+    """
     return (
         vector_columns("target")
         + vector_columns("error")
@@ -37,6 +50,7 @@ def assistant_columns(barriers: Sequence[str]) -> Tuple[str, ...]:
         + ("exact_jacobian", "leader_drift")
         + tuple(f"slack_{name}" for name in barriers)
         + ("status", "rows", "solve_time")
+        + (TURNING_COLUMNS if turns else ())
     )
 
 
@@ -76,7 +90,8 @@ class TimeSeries:
         """An empty table for a run of a scenario."""
         names = tuple(agent.name for agent in scenario.agents)
         assistants = tuple(names[index] for index in scenario.assistants)
-        return cls(names, assistants, scenario.controller.barriers, rows=scenario.cycles)
+        controller = scenario.controller
+        return cls(names, assistants, controller.barriers, scenario.cycles, controller.turns)
 
     def __init__(
         self,
@@ -84,8 +99,10 @@ class TimeSeries:
         assistants: Tuple[str, ...],
         barriers: Tuple[str, ...],
         rows: int = 0,
+        turns: bool = False,
     ):
-        """``agents`` in the order of the arrays of a CycleRecord; ``rows`` expected."""
+        """``agents`` in the order of a CycleRecord's arrays; ``rows`` expected; grips turn."""
+        self._turns = turns
         self.assistants = assistants
         self.barriers = barriers
         self.columns = RUN_COLUMNS + tuple(
@@ -94,7 +111,7 @@ class TimeSeries:
         self.columns += tuple(
             f"{assistant}.{name}"
             for assistant in assistants
-            for name in assistant_columns(barriers)
+            for name in assistant_columns(barriers, turns)
         )
         self._indices = {name: index for index, name in enumerate(self.columns)}
         self._count = 0
@@ -155,6 +172,16 @@ class TimeSeries:
             decision.status,
             decision.rows,
             decision.solve_time,
+            *(self._turning_row(decision) if self._turns else ()),
+        ]
+
+    @staticmethod
+    def _turning_row(decision: Decision) -> List[float]:
+        """The same in the order of TURNING_COLUMNS."""
+        return [
+            *decision.orientation_error.tolist(),
+            *decision.angular_nominal.tolist(),
+            *decision.angular_command.tolist(),
         ]
 
     def _allocate(self, rows: int) -> None:

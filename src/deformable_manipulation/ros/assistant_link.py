@@ -45,9 +45,9 @@ class AssistantLink:
         """See :func:`.node.await_subscribers`."""
         node.await_subscribers(self._states)
 
-    def command(self, state, velocity):
+    def command(self, state, velocity, angular=(0.0, 0.0, 0.0)):
         """Send the velocity [m/s] that answers a state."""
-        command = to_twist(TwistStamped(), state, velocity)
+        command = to_twist(TwistStamped(), state, velocity, angular)
         # Not the frame of a state that is refused for it: a stop has to be accepted.
         command.header = Header(stamp=state.header.stamp, frame_id=self._frame)
         self._commands.publish(command)

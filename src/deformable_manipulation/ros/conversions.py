@@ -80,7 +80,10 @@ def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=N
         ready=_flags(state.copy_ready, "copy_ready", copies),
         distances=distances,
         velocities=_measured_velocities(state, order),
+        **_turning(state, order, scenario),
         sensitivities=_sensitivities(state, order),
+        wrenches=_wrenches(state, order),
+        wrench_sensitivities=_wrench_sensitivities(state, order),
         obstacles=obstacles,
         intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
@@ -114,6 +117,39 @@ def _sensitivities(state, order):
         return None
     shape = (len(state.agents), state.point_count, 3, 3)
     return _reshaped(state.sensitivities, "sensitivities", shape)[order]
+
+
+def _turning(state, order, scenario):
+    """What is known of the grips' orientations, if they turn. Raises MessageError."""
+    if not scenario.controller.turns:
+        return {}
+    agents = len(state.agents)
+    sensitivities = None
+    if len(state.turning_sensitivities):
+        shape = (agents, state.point_count, 3, 3)
+        values = _reshaped(state.turning_sensitivities, "turning_sensitivities", shape)
+        sensitivities = values[order]
+    return dict(
+        orientations=_reshaped(state.agent_orientations, "agent_orientations", (agents, 4))[order],
+        turning_sensitivities=sensitivities,
+    )
+
+
+def _wrenches(state, order):
+    """(C, A, 6) in the scenario's order, or None. Raises MessageError."""
+    if not len(state.wrenches):
+        return None
+    shape = (len(state.displaced_agents), len(state.agents), 6)
+    return _reshaped(state.wrenches, "wrenches", shape)[:, order]
+
+
+def _wrench_sensitivities(state, order):
+    """(A, 6, A, 6) in the scenario's order, or None. Raises MessageError."""
+    if not len(state.wrench_sensitivities):
+        return None
+    agents = len(state.agents)
+    shape = (agents, 6, agents, 6)
+    return _reshaped(state.wrench_sensitivities, "wrench_sensitivities", shape)[order][:, :, order]
 
 
 def to_distances(message) -> Distances:
@@ -200,6 +236,9 @@ def fill_controller_state(message, state, agent, decision):
         ("nominal_velocity", decision.nominal),
         ("velocity", decision.command),
         ("jacobian", decision.jacobian),
+        ("orientation_error", decision.orientation_error),
+        ("nominal_angular_velocity", decision.angular_nominal),
+        ("angular_velocity", decision.angular_command),
     ):
         for axis, value in zip("xyz", vector):
             setattr(message, f"{name}_{axis}", float(value))
@@ -267,12 +306,23 @@ def fill_path(message, state, cycle_time, frame, intent):
     return message
 
 
-def to_twist(message, state, velocity):
-    """Write a velocity (3,) [m/s] that answers a state into a ``TwistStamped``."""
+def to_twist(message, state, velocity, angular=(0.0, 0.0, 0.0)):
+    """Write velocities (3,) [m/s] and [rad/s] that answer a state into a ``TwistStamped``."""
     message.header = state.header
-    linear = message.twist.linear
-    linear.x, linear.y, linear.z = (float(value) for value in velocity)
+    for part, vector in ((message.twist.linear, velocity), (message.twist.angular, angular)):
+        part.x, part.y, part.z = (float(value) for value in vector)
     return message
+
+
+def to_measured_wrench(message, scenario):
+    """Arguments of ``WrenchWatch.measured`` from a ``WrenchStamped``, but for the name."""
+    frame = message.header.frame_id
+    return dict(
+        stamp=message.header.stamp.to_sec(),
+        force=_vector(message.wrench.force),
+        torque=_vector(message.wrench.torque),
+        problem="" if frame == scenario.frame else f"is in the frame '{frame}'",
+    )
 
 
 def fill_intent(message, state, agent, intent):
@@ -289,6 +339,9 @@ def fill_intent(message, state, agent, intent):
         (message.velocity, intent.command),
         (message.acceleration, intent.acceleration),
         (message.departure, intent.departure),
+        (message.angular_velocity, intent.angular_command),
+        (message.angular_acceleration, intent.angular_acceleration),
+        (message.angular_departure, intent.angular_departure),
     ):
         field.x, field.y, field.z = vector.tolist()
     return message
@@ -310,6 +363,9 @@ def to_intent(message, scenario):
             command=_vector(message.velocity),
             acceleration=_vector(message.acceleration),
             departure=_vector(message.departure),
+            angular_command=_vector(message.angular_velocity),
+            angular_acceleration=_vector(message.angular_acceleration),
+            angular_departure=_vector(message.angular_departure),
         )
     except ValueError as error:
         raise MessageError(str(error)) from None

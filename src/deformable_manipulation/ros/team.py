@@ -3,14 +3,17 @@
 import threading
 
 import rospy
+from geometry_msgs.msg import WrenchStamped
 from std_srvs.srv import SetBoolResponse, TriggerResponse
 from visualization_msgs.msg import MarkerArray
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.control.team import TeamController
 from deformable_manipulation.cycles.health import DecisionMonitor
+from deformable_manipulation.cycles.wrench_watch import WrenchWatch
 from deformable_manipulation.ros import node
 from deformable_manipulation.ros.assistant_link import AssistantLink
+from deformable_manipulation.ros.conversions import to_measured_wrench
 from deformable_manipulation.ros.intent_exchange import IntentExchange
 from deformable_manipulation.ros.live_parameters import LiveParameters
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
@@ -50,6 +53,7 @@ class Team:
         self._stopped = False
         self._waiting = WaitingReason()
         self._links = [AssistantLink(name, scenario.frame, counter) for name in names]
+        self._watch = self._watch_wrenches(names)
         self._markers = MarkerPublisher(self._draw)
         self._monitors = {name: DecisionMonitor() for name in names}
         # Of one assistant they go by its name, of several commanded together by `team`.
@@ -80,19 +84,23 @@ class Team:
         with self._lock:
             if self._answered is not None and state.reset_count != self._answered.reset_count:
                 self._controller.reset()
+                if self._watch is not None:
+                    self._watch.reset()
             self._answered = state
             self._observation = observation
             self._intents.answers(state)
             if observation is None:
                 return self._controller.wait(fault)
-            return self._controller.update(observation)
+            fault = self._wrench_fault(state, observation)
+            return self._controller.wait(fault) if fault else self._controller.update(observation)
 
     def send(self, state, decisions):
         """Command what was decided on a state."""
         with self._lock:
             if not self._stopped:
                 for link in self._links:
-                    link.command(state, decisions[link.name].command)
+                    decision = decisions[link.name]
+                    link.command(state, decision.command, decision.angular_command)
 
     def report(self, state, observation, decisions):
         """Tell everybody else, who is in no hurry."""
@@ -106,6 +114,35 @@ class Team:
         if observation is not None:
             self._markers.show(state.header, observation.positions, decisions)
 
+    def _watch_wrenches(self, names):
+        """The WrenchWatch over the assistants' force sensors, or None."""
+        settings = self._scenario.controller.wrench_watch
+        if settings is None:
+            return None
+        for name in names:
+            node.subscribe(
+                f"{name}/measured_wrench",
+                WrenchStamped,
+                lambda message, name=name: self._take_wrench(name, message),
+            )
+        return WrenchWatch(settings, names, self._scenario.controller.timeout)
+
+    def _take_wrench(self, name, message):
+        with self._lock:
+            if self._watch is not None:
+                self._watch.measured(name, **to_measured_wrench(message, self._scenario))
+
+    def _wrench_fault(self, state, observation):
+        """A clause that says why force sensors stop the assistants; empty: they do not."""
+        if self._watch is None:
+            return ""
+        time, faults = state.header.stamp.to_sec(), []
+        for index in self._scenario.assistants:
+            name = self._scenario.agents[index].name
+            if name in self._controller.names and self._controller.is_enabled(name):
+                faults.append(self._watch.check(name, time, observation.wrenches[0, index]))
+        return "; ".join(filter(None, faults))
+
     def _draw(self, header, positions, decisions):
         leader = positions[self._scenario.leader_index]
         drawn = MarkerArray()
@@ -118,6 +155,8 @@ class Team:
             if request.data and self._observation is None:
                 return SetBoolResponse(False, self._no_state())
             self._controller.set_enabled(name, request.data)
+            if request.data and self._watch is not None:
+                self._watch.rearm(name)
         return SetBoolResponse(True, "Follows the leader." if request.data else "Stands still.")
 
     def _no_state(self):

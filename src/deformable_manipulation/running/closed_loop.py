@@ -5,6 +5,7 @@ from typing import Dict, Optional, Tuple
 
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.control.overload import has_load_limits, refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.intent import Intent
@@ -29,6 +30,7 @@ class ClosedLoop:
 
     Raises:
         _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
+        ScenarioError: the object at rest bears more than a limit allows.
     """
 
     def __init__(self, scenario: Scenario, safety: bool = True):
@@ -50,6 +52,8 @@ class ClosedLoop:
                 scenario, self._controllers, make_minimum_distance(scenario)
             )
         self._stretch = StretchGauge(scenario.object)
+        if safety and has_load_limits(scenario):
+            refuse_overloads(self._margins())
 
     @property
     def rest(self) -> str:
@@ -103,7 +107,8 @@ class ClosedLoop:
         simulation.set_command(leader, leader_velocity)
         for index in self._scenario.assistants:
             name = self._scenario.agents[index].name
-            simulation.set_command(index, decisions[name].command)
+            decision = decisions[name]
+            simulation.set_command(index, decision.command, decision.angular_command)
         advanced = time.perf_counter()
 
         return CycleRecord(
@@ -122,6 +127,17 @@ class ClosedLoop:
                 controller=decided - measured,
             ),
         )
+
+    def _margins(self) -> Dict[str, Dict[str, float]]:
+        """The present h of each barrier, of all assistants by their names."""
+        # Without the response: looking for it once more would change the run by rounding.
+        observer = Observer(self._scenario, self._simulation, self._distance, False)
+        observation = observer.observe()
+        return {
+            name: controller.margins(name, observation)
+            for controller in self._controllers
+            for name in controller.names
+        }
 
     def _decide(self, observation: Observation) -> Dict[str, Decision]:
         """The decisions of all assistants by their names."""

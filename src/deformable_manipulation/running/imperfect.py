@@ -74,7 +74,7 @@ class _Truth:
             target=target,
             error=target - position,
             distance=distance,
-            h=self._controller.margins(self._name, truth.positions, distance),
+            h=self._controller.margins(self._name, truth),
         )
 
 

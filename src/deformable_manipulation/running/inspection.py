@@ -6,14 +6,19 @@ from typing import Iterator, Tuple
 
 import numpy as np
 
+from deformable_manipulation.control.overload import refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.obstacles.spec import obstacle_corners
+from deformable_manipulation.reading.parameter import declared
+from deformable_manipulation.reading.readers import Number
+from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 
+_LENGTHS = ("offset", "margin")  # that barriers keep
 _SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
 _LARGE_PERTURBATION = 0.25  # of the free length between two agents
 _LARGE_MARGIN = 0.05  # of the free length between two agents
@@ -35,6 +40,7 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     Raises:
         _pbd.ParameterError: the object does not settle.
         ValueError: an obstacle's shape is invalid.
+        ScenarioError: the object at rest bears more than a limit allows.
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
@@ -75,25 +81,27 @@ def _extent_of(obstacle, corners: np.ndarray) -> str:
 
 
 def _barriers(scenario: Scenario, observer: Observer) -> Iterator[str]:
-    """Each barrier in use: the lengths it keeps, and the h of each assistant at the start."""
+    """Each barrier in use: the limits it keeps, and the h of each assistant at the start."""
     observation = observer.observe()
     starts = {}
     for names in teams(scenario):
         starts.update(TeamController(scenario, names, False).update(observation))
+    refuse_overloads({name: decision.h for name, decision in starts.items()})
     for name in scenario.controller.barriers:
         section = getattr(scenario.controller, name)
-        lengths = [
-            "{} {:g} m".format(key, getattr(section, key))
-            for key in ("offset", "margin")
-            if hasattr(section, key)
+        kind = BARRIERS[name]
+        facts = [
+            "{} {:g} {}".format(key, getattr(section, attribute), declaration.reader.unit)
+            for key, (attribute, declaration) in declared(section).items()
+            if key in _LENGTHS or (kind.is_load and isinstance(declaration.reader, Number))
         ]
         values = [
-            "{} {:.4g} m".format(agent, decision.h[name])
+            "{} {:.4g} {}".format(agent, decision.h[name], kind.unit)
             for agent, decision in starts.items()
             if np.isfinite(decision.h[name])
         ]
         start = ", ".join(values) if values else "nothing to keep from"
-        yield "barrier {}: {}; h at the start: {}".format(name, ", ".join(lengths), start)
+        yield "barrier {}: {}; h at the start: {}".format(name, ", ".join(facts), start)
 
 
 def _unlikely_size(obstacle, corners: np.ndarray, size: float) -> Iterator[str]:

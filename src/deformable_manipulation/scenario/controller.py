@@ -23,6 +23,8 @@ from deformable_manipulation.reading.readers import (
 )
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.horizon import HORIZON, HorizonSpec
+from deformable_manipulation.scenario.orientation import FIXED, FOLLOW, FREE
+from deformable_manipulation.scenario.wrench_watch import WRENCH_WATCH, WrenchWatchSpec
 
 COORDINATED = "coordinated"
 DECENTRALISED = "decentralised"
@@ -144,6 +146,43 @@ class _ControllerKeys:
         live=Live(("max_jerk",), 0.1, 1e6),
         native=True,
     )
+    orientation: str = parameter(
+        Choice(FIXED, FOLLOW, FREE),
+        "What the assistants' grips do about their orientations. `fixed`: they keep them. "
+        "`follow`: the formation turns with the leader, places and grips. `free`: they want to "
+        "keep them, and turn where that serves the limits. See "
+        "[mathematics.md](mathematics.md#grips-that-turn).",
+        default=FIXED,
+        paper=FIXED,
+        allowed="`fixed` for fabrics, grips that are `pinned`, and `jacobian: perturbed_copies`",
+        native=True,
+    )
+    turning_gain: float = parameter(
+        Number("1/s", above=0.0, at_most=100.0),
+        "How fast a grip turns back to the orientation that it wants.",
+        default=0.5,
+        native=True,
+    )
+    turning_weights: Vector = parameter(
+        vector("m", at_least=1e-6, at_most=1e6),
+        "Cost of leaving the nominal angular velocity, per axis, beside `weights`: the length over "
+        "which turning by 1 rad costs as much as moving. Lower it to let grips turn before they "
+        "give way.",
+        default=(0.3, 0.3, 0.3),
+        native=True,
+    )
+    max_angular_velocity: float = parameter(
+        Number("rad/s", above=0.0, at_most=10.0),
+        "Bound on every component of the commanded angular velocity. Use the robot's limit.",
+        default=0.5,
+        native=True,
+    )
+    max_angular_acceleration: float = parameter(
+        Number("rad/s^2", above=0.0, at_most=1000.0),
+        "Bound on every component of its change. Use the robot's limit.",
+        default=2.0,
+        native=True,
+    )
     smoothing: float = parameter(
         Number("s", at_least=0.0, at_most=10.0),
         "Time constant with which the deviation from the nominal velocity changes where the limits "
@@ -237,10 +276,29 @@ class _ControllerKeys:
         default=0.2,
     )
 
+    wrench_watch: Optional[WrenchWatchSpec] = parameter(
+        WRENCH_WATCH,
+        "Stops an assistant whose force sensor, on `<assistant>/measured_wrench`, does not measure "
+        "what the model says. See [real_robot.md](real_robot.md#force-sensors). Under ROS only.",
+        default=None,
+        default_text="none: no force sensors",
+    )
+
     @property
     def barriers(self) -> Tuple[str, ...]:
         """Names of the barriers in use, in their order."""
         return tuple(name for name in BARRIERS if getattr(self, name) is not None)
+
+    @property
+    def turns(self) -> bool:
+        """Whether grips turn."""
+        return self.orientation != FIXED
+
+    @property
+    def needs_wrenches(self) -> bool:
+        """Whether something in use depends on what the object exerts on the agents."""
+        of_barriers = any(BARRIERS[name].needs_wrenches for name in self.barriers)
+        return of_barriers or self.wrench_watch is not None
 
 
 def _with_barriers(keys: type) -> type:

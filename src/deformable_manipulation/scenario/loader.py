@@ -19,6 +19,7 @@ from deformable_manipulation.scenario.agents import read_agents
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
 from deformable_manipulation.scenario.knowledge import check_delay
+from deformable_manipulation.scenario.orientation import check_orientation
 from deformable_manipulation.scenario.spec import Scenario
 
 SCENARIO = Section(Scenario, defaults={"obstacles": ()})
@@ -137,6 +138,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_frames, "frame", "obstacles")
     check(checks.check_loop, "controller")
     check(controller.check_priority, "controller")
+    check(check_orientation, "object", "agents", "controller", "knowledge")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")

@@ -23,6 +23,7 @@ from deformable_manipulation.scenario.knowledge import KNOWLEDGE
 from deformable_manipulation.scenario.loader import SCENARIO
 from deformable_manipulation.scenario.simulation import SIMULATION
 from deformable_manipulation.scenario.waypoints import LEADER_PATH, WAYPOINT, WORKSPACE
+from deformable_manipulation.scenario.wrench_watch import WRENCH_WATCH
 from deformable_manipulation.system.package_files import package_share_directory
 
 HEADER = "| key | type | unit | default | allowed | live | meaning; when to change it |"
@@ -74,6 +75,7 @@ def sections() -> Dict[str, Any]:
         "leader.workspace": WORKSPACE,
         "controller": CONTROLLER,
         "controller.horizon": HORIZON,
+        "controller.wrench_watch": WRENCH_WATCH,
         "simulation": SIMULATION,
         "knowledge": KNOWLEDGE,
     }

@@ -21,6 +21,8 @@ class Observer:
         self._simulation = simulation
         self._distance = distance
         self._exact = copies and scenario.controller.jacobian == "equilibrium"
+        self._turns = scenario.controller.turns
+        self._wrenches = scenario.controller.needs_wrenches
         self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
 
@@ -32,6 +34,8 @@ class Observer:
         simulation = self._simulation
         points = simulation.points(out=self._points)
         distances = self.distances_of(points)  # moves the obstacles
+        sensitivities = self._sensitivities()
+        known = sensitivities is not None
         return Observation(
             time=simulation.time,
             cycle=simulation.cycle,
@@ -41,7 +45,11 @@ class Observer:
             displacements=simulation.displacements(),
             ready=simulation.ready(),
             distances=distances,
-            sensitivities=self._sensitivities(),
+            sensitivities=sensitivities,
+            wrenches=simulation.wrenches() if self._wrenches else None,
+            wrench_sensitivities=simulation.wrench_response() if self._wrenches and known else None,
+            orientations=simulation.orientations() if self._turns else None,
+            turning_sensitivities=simulation.turning_response() if self._turns and known else None,
             obstacles=self._obstacles.poses(),
             intent=intent,
         )

@@ -13,8 +13,16 @@ from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.controller import ControllerSpec
 
-# A section of each barrier that a scenario may leave out.
-OPTIONAL = {"workspace": {"planes": [{"point": [0, 0, 9], "normal": [0, 0, -1]}]}}
+# A section of each barrier, and whatever else, that a scenario may leave out.
+OPTIONAL = {
+    "workspace": {"planes": [{"point": [0, 0, 9], "normal": [0, 0, -1]}]},
+    "bending": {"min_radius": 0.01},
+    "grip_force": {"max_force": 100.0},
+    "grip_torque": {"max_torque": 100.0},
+    "tension": {"max_tension": 100.0},
+    "strain": {"max_strain": 1.0},
+    "wrench_watch": {"max_force": 100.0, "max_torque": 100.0},
+}
 DECLARED = [
     (path, declaration)
     for path, declaration in declared_below(ControllerSpec)

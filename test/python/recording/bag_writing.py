@@ -69,6 +69,8 @@ class BagWriter:
             for field, attribute in VECTORS.items()
             for axis, number in zip("xyz", getattr(decision, attribute))
         }
+        for field in ("orientation_error", "nominal_angular_velocity", "angular_velocity"):
+            values.update({f"{field}_{axis}": 0.0 for axis in "xyz"})
         for field in (
             "distance exact_jacobian leader_drift rows solve_time computation_time error_norm "
             "enabled coordinated"
@@ -130,7 +132,8 @@ class BagWriter:
         )
         for name in (
             "agent_orientations agent_velocities agent_angular_velocities displacements "
-            "orientations velocities measured_velocities sensitivities"
+            "orientations velocities measured_velocities sensitivities turning_sensitivities "
+            "wrenches wrench_sensitivities"
         ).split():
             values[name] = np.zeros(0)
         message = self._message(OBJECT_STATE, cycle, reset_count, values)

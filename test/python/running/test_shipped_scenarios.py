@@ -15,6 +15,7 @@ SCENARIOS = (
     "stiff_rod_one_assistant",
     "rope_two_assistants",
     "rope_moving_obstacle",
+    "tent_pole_one_assistant",
 )
 
 
@@ -42,8 +43,7 @@ def summary(name, folder):
 def test_no_limit_is_violated(summary):
     assert summary["completed"] and summary["safety"]
     assert summary["min_distance"] >= summary["offset"] - SHORTFALL
-    assert summary["min_margin"]["overstretch"] >= -SHORTFALL
-    assert summary["min_margin"]["proximity"] >= -SHORTFALL
+    assert min(summary["min_margin"].values()) >= -SHORTFALL
     assert summary["qp_relaxed"] == summary["qp_failed"] == 0
 
 

@@ -2,7 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 from deformable_manipulation.reading.parameter import declared_below, parameter
 from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number, Section
@@ -30,11 +30,13 @@ class BarrierKind:
         missed: what is the case where h is negative, for diagnostics: "overstretched".
         default: its section where the scenario has none: None leaves the barrier out; ``NOTHING``
             of :mod:`~..parameter` demands the section.
-        derive: what the C++ core needs beyond the parameters: called with the object, the agents
-            and the controller; gives a mapping of plain values.
+        derive: what the C++ core needs beyond the parameters: called with the scenario; gives a
+            mapping of plain values.
         of_object: keys whose defaults the object has, as attributes ``NAME_KEY``.
         check: called with a Report, the object, the agents and the controller; reports what does
             not go together.
+        unit: of h; "m", or that of what the object bears: h is then a limit minus a load.
+        needs_wrenches: whether h depends on what the object exerts on the agents.
     """
 
     name: str
@@ -47,6 +49,25 @@ class BarrierKind:
     derive: Callable[..., Dict[str, Any]] = _nothing
     check: Callable[..., None] = _no_check
     of_object: Tuple[str, ...] = ()
+    unit: str = "m"
+    needs_wrenches: bool = False
+
+    @property
+    def is_load(self) -> bool:
+        """Whether h is about what the object bears, and not a length."""
+        return self.unit != "m"
+
+    def show(self, h: Optional[float], digits: int = 1) -> str:
+        """An h with its unit, lengths in mm; ``none`` of None.
+
+        Args:
+            digits: behind the point, of lengths.
+        """
+        if h is None:
+            return "none"
+        if self.is_load:
+            return f"{h:.3g}" if self.unit == "1" else f"{h:.3g} {self.unit}"
+        return f"{1e3 * h:.{digits}f} mm"
 
     def __post_init__(self):
         if self.default is not None:

@@ -41,8 +41,9 @@ class OverstretchSpec:
     )
 
 
-def _derive(spec, agents, controller):
-    return {"limits": limit_matrix(spec, agents, controller, "max_distance")}
+def _derive(scenario):
+    limits = limit_matrix(scenario.object, scenario.agents, scenario.controller, "max_distance")
+    return {"limits": limits}
 
 
 BARRIER = BarrierKind(

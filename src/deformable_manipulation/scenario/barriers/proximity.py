@@ -35,8 +35,9 @@ class ProximitySpec:
     )
 
 
-def _derive(spec, agents, controller):
-    return {"limits": limit_matrix(spec, agents, controller, "min_distance")}
+def _derive(scenario):
+    limits = limit_matrix(scenario.object, scenario.agents, scenario.controller, "min_distance")
+    return {"limits": limits}
 
 
 BARRIER = BarrierKind(
