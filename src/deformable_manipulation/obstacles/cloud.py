@@ -10,6 +10,7 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Dots, Drawing
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
     ROTATION,
@@ -53,6 +54,7 @@ class CloudObstacle(ObstacleSpec):
         default=(0.0, 0.0, 0.0),
     )
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     def native(self) -> Tuple[Any, List[str]]:
         from deformable_manipulation import _distance

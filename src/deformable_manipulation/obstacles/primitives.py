@@ -10,6 +10,7 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Drawing, box_surface, turned_surface
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
     ROTATION,
@@ -85,6 +86,7 @@ class HalfSpaceObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     @property
     def endless(self) -> str:
@@ -138,6 +140,7 @@ class SphereObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     @property
     def half_sides(self) -> np.ndarray:
@@ -174,6 +177,7 @@ class BoxObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     @property
     def half_sides(self) -> np.ndarray:
@@ -208,6 +212,7 @@ class CylinderObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     @property
     def half_sides(self) -> np.ndarray:
@@ -251,6 +256,7 @@ class CapsuleObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
 
     @property
     def half_sides(self) -> np.ndarray:
