@@ -11,6 +11,7 @@ _FAR = 40.0  # m, from which parallel lines stay parallel
 _CELL = 0.5  # m, of the grid
 _BEHIND = 0.3  # m, of the grid behind a flat scene: behind the obstacles as they are drawn
 _FLAT = 0.1  # of the scene's width
+_LEFT_OUT, _USED = "214; 39; 40", "60; 120; 90"  # red, green, blue
 _SAG = 0.6  # m, what the object hangs below the agents, about
 _PERSPECTIVE = 0.785  # rad, field of view
 
@@ -47,7 +48,7 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_DISPLAYS],
+            "Displays": [_grid(low, high, flat), *_DISPLAYS, *_clouds(scenario)],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
@@ -114,6 +115,30 @@ _TOOLS = [
     {"Class": "rviz/FocusCamera"},
     {"Class": "rviz/Measure"},
 ]
+
+
+def _clouds(scenario):
+    """Data of live obstacles: all of them, and over them those that are not left out."""
+    for topic in dict.fromkeys(each.topic for each in scenario.obstacles if each.is_live):
+        yield _points("Seen on " + topic, topic, _LEFT_OUT, 0.008)
+        yield _points("Used of it", topic + "/used", _USED, 0.012)
+
+
+def _points(name, topic, color, size):
+    return {
+        "Class": "rviz/PointCloud2",
+        "Name": name,
+        "Enabled": True,
+        "Topic": topic,
+        "Color": color,
+        "Color Transformer": "FlatColor",
+        "Position Transformer": "XYZ",
+        "Style": "Boxes",
+        "Size (m)": size,
+        "Decay Time": 0,
+        "Queue Size": 2,
+        "Value": True,
+    }
 
 
 def _scene(scenario):

@@ -45,11 +45,6 @@ class DepthCamera:
         """Rows and columns of its images."""
         return self._raster.height, self._raster.width
 
-    def is_due(self, cycle: int) -> bool:
-        """Whether it takes an image in a cycle."""
-        per_cycle = self._camera.rate / self._scenario.controller.rate
-        return cycle == 0 or math.floor(cycle * per_cycle) > math.floor((cycle - 1) * per_cycle)
-
     def image(self, cycle: int, state: CarriedState) -> np.ndarray:
         """The points (H, W, 3) [m] of its image, single precision, in its frame; nan: no depth.
 

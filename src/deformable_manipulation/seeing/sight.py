@@ -3,6 +3,7 @@
 from typing import Dict
 
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.seeing.camera_times import CameraTimes
 from deformable_manipulation.seeing.carried_state import CarriedState
 from deformable_manipulation.seeing.depth_camera import DepthCamera, camera_rotation
 from deformable_manipulation.seeing.live_map import LiveMap, Seen
@@ -27,11 +28,12 @@ class Sight:
             if is_of_camera(scenario, index)
         }
         if scenario.camera:
+            self._times = CameraTimes(scenario)
             self._pose = scenario.camera.position, camera_rotation(scenario.camera)
 
     def look(self, cycle: int, state: CarriedState) -> None:
         """Take an image of a cycle, if one is due."""
-        if self._camera is None or not self._maps or not self._camera.is_due(cycle):
+        if self._camera is None or not self._maps or not self._times.is_due(cycle):
             return
         points = self._camera.image(cycle, state).reshape(-1, 3)
         for each in self._maps.values():
