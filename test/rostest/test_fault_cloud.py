@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An obstacle whose points come by a topic, as from a depth camera, and what may be wrong with them."""
+"""An obstacle whose points come by a topic, and what may be wrong with them."""
 
 import os
 import subprocess

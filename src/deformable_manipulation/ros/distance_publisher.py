@@ -100,7 +100,10 @@ class DistancePublisher:
         started = time.perf_counter()
         points = points_of(state)
         carried = agent_positions(state, self._scenario), agent_orientations(state, self._scenario)
-        faults = self._obstacles.move(self._distance, state), self._live.move(state, points, carried)
+        faults = (
+            self._obstacles.move(self._distance, state),
+            self._live.move(state, points, carried),
+        )
         self._fault = fault = ", ".join(filter(None, faults))
         try:
             if fault:

@@ -121,7 +121,7 @@ class LiveSource:
             self._used.publish(to_point_cloud(self._map.seen.places[-1], stamp, self._frame))
 
     def _check_time(self, stamp):
-        """Raise ValueError for data that are too old to be used, or not newer than what is known."""
+        """Raises ValueError: data are too old to be used, or not newer than what is known."""
         if stamp.is_zero():
             raise ValueError("they have no stamp")
         timeout = self._map.spec.timeout

@@ -100,15 +100,18 @@ def camera_axes(camera) -> np.ndarray:
 def camera_rotation(camera) -> Quaternion:
     """The camera's orientation in the fixed frame."""
     axes = camera_axes(camera)
-    trace = np.array((1.0 + axes[0, 0] - axes[1, 1] - axes[2, 2], 0.0, 0.0, 0.0))
-    trace[1] = 1.0 - axes[0, 0] + axes[1, 1] - axes[2, 2]
-    trace[2] = 1.0 - axes[0, 0] - axes[1, 1] + axes[2, 2]
-    trace[3] = 1.0 + axes[0, 0] + axes[1, 1] + axes[2, 2]
-    x, y, z, w = 0.5 * np.sqrt(np.maximum(trace, 0.0))
-    signs = (axes[2, 1] - axes[1, 2], axes[0, 2] - axes[2, 0], axes[1, 0] - axes[0, 1])
-    quaternion = [math.copysign(c, sign) for c, sign in zip((x, y, z), signs)] + [float(w)]
-    length = math.sqrt(sum(c * c for c in quaternion))
-    return tuple(c / length for c in quaternion)
+    # From the sums and differences of its diagonal, with the signs of its other elements.
+    diagonal = axes.diagonal()
+    x, y, z = 0.5 * np.sqrt(np.maximum(1.0 + 2.0 * diagonal - diagonal.sum(), 0.0))
+    w = 0.5 * math.sqrt(max(1.0 + diagonal.sum(), 0.0))
+    turned = axes - axes.T
+    x, y, z = (
+        math.copysign(x, turned[2, 1]),
+        math.copysign(y, turned[0, 2]),
+        math.copysign(z, turned[1, 0]),
+    )
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    return x / norm, y / norm, z / norm, w / norm
 
 
 def _is_on_path(obstacle: ObstacleSpec) -> bool:

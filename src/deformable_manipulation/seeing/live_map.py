@@ -2,7 +2,7 @@
 
 import math
 import threading
-from typing import Any, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, cast
 
 import numpy as np
 
@@ -75,7 +75,7 @@ class LiveMap:
     """
 
     def __init__(self, scenario: Scenario, index: int):
-        self.spec: Any = scenario.obstacles[index]
+        self.spec = cast(LiveObstacle, scenario.obstacles[index])
         self._own = OwnPoints(scenario, self.spec)
         self._faces = scenario.object.faces()
         self._pieces: Tuple[Piece, ...] = ()

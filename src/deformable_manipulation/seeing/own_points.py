@@ -1,6 +1,6 @@
 """Which points are of the object and of those who carry it, and no obstacle."""
 
-from typing import Any, Callable, Optional, Sequence, Tuple
+from typing import Any, Callable, Optional, Tuple
 
 import numpy as np
 
@@ -87,7 +87,7 @@ class OwnPoints:
         return [np.add(position, rotate(rotation, end)) for end in (shape.start, shape.end)]
 
 
-def _elements_of(points: np.ndarray, faces: Optional[Sequence]) -> np.ndarray:
+def _elements_of(points: np.ndarray, faces: Optional[np.ndarray]) -> np.ndarray:
     if faces is not None:
-        return points[np.asarray(faces)]
+        return points[faces]
     return np.stack((points[:-1], points[1:], points[1:]), axis=1)

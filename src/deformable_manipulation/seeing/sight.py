@@ -62,4 +62,3 @@ def is_of_camera(scenario: Scenario, index: int) -> bool:
     """Whether a live obstacle's data come from the scenario's own camera."""
     spec = scenario.obstacles[index]
     return scenario.camera is not None and getattr(spec, "topic", None) == scenario.camera.topic
-
