@@ -4,19 +4,18 @@ from typing import Any, Sequence
 
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.obstacles.nothing import Nothing
-from deformable_manipulation.obstacles.spec import ObstacleSpec
 from deformable_manipulation.scenario.spec import Scenario
 
 
 def make_minimum_distance(scenario: Scenario):
-    """The distance computation for a scenario's object and all obstacles, by the chosen backend.
+    """The distance computation for a scenario's object and obstacles, by the chosen backend.
 
-    Of live obstacles there is nothing.
+    From those that are really there; maps of them are nowhere.
 
     Raises:
         ValueError: an obstacle's file cannot be read, or its shape is invalid.
     """
-    return _distance_from(scenario, scenario.obstacles)
+    return _distance_from(scenario, [each.real for each in scenario.obstacles])
 
 
 def make_known_distance(scenario: Scenario):
@@ -25,11 +24,15 @@ def make_known_distance(scenario: Scenario):
     Of live obstacles there is nothing yet: :class:`~..seeing.seen_obstacles.SeenObstacles` puts
     what is seen into their places.
     """
-    obstacles = [each if each.known else Nothing(each.name) for each in scenario.obstacles]
-    return _distance_from(scenario, obstacles)
+    return _distance_from(scenario, [each.known for each in scenario.obstacles])
 
 
-def _distance_from(scenario: Scenario, obstacles: Sequence[ObstacleSpec]):
+def _distance_from(scenario: Scenario, counts: Sequence[bool]):
+    """From those obstacles that count; the others keep their places in the results."""
+    obstacles = [
+        each if each_counts else Nothing(each.name)
+        for each, each_counts in zip(scenario.obstacles, counts)
+    ]
     body, collision = scenario.object, scenario.controller.collision
     backend: Any = MinimumDistance
     if collision.backend == "reference":

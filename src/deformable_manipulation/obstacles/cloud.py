@@ -13,6 +13,7 @@ from deformable_manipulation.obstacles.spec import (
     KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -55,6 +56,7 @@ class CloudObstacle(ObstacleSpec):
     )
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
     known: bool = KNOWN
+    real: bool = REAL
 
     def native(self) -> Tuple[Any, List[str]]:
         from deformable_manipulation import _distance

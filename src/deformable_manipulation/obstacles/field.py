@@ -13,6 +13,7 @@ from deformable_manipulation.obstacles.spec import (
     KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -45,6 +46,7 @@ class FieldObstacle(ObstacleSpec):
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
     known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def endless(self) -> str:

@@ -67,7 +67,7 @@ KINDS: Dict[str, Kind] = {
         )
     },
 }
-COMMON_KEYS = ("name", "translation", "rotation", "motion", "known")
+COMMON_KEYS = ("name", "translation", "rotation", "motion", "known", "real")
 
 
 def _own_keys(kind: str) -> List[str]:

@@ -53,6 +53,7 @@ class LiveObstacle(ObstacleSpec):
     rotation = (0.0, 0.0, 0.0, 1.0)
     motion = None
     known = True
+    real = False
     hold = 0.0
     timeout: float
     least_points: int

@@ -13,6 +13,7 @@ from deformable_manipulation.obstacles.spec import (
     KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -53,6 +54,7 @@ class MeshObstacle(ObstacleSpec):
     )
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
     known: bool = KNOWN
+    real: bool = REAL
 
     def problems(self) -> Iterator[str]:
         """See :class:`.ObstacleSpec`, like the others."""

@@ -26,6 +26,7 @@ class Nothing(ObstacleSpec):
     rotation = (0.0, 0.0, 0.0, 1.0)
     motion = None
     known = True
+    real = False
 
     def native(self) -> Tuple[Any, List[str]]:
         """See :class:`.ObstacleSpec`, like the others."""

@@ -23,6 +23,7 @@ from deformable_manipulation.obstacles.spec import (
     KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -103,6 +104,7 @@ class PolygonObstacle(ObstacleSpec):
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
     known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def rings(self) -> Rings:

@@ -41,6 +41,14 @@ KNOWN = parameter(
     default=True,
 )
 
+REAL = parameter(
+    Flag(),
+    "Whether it is really there. `false`: it is a map of other obstacles. The controllers keep "
+    "off it, but the recorded distances are not from it, and a camera does not see it.",
+    default=True,
+    allowed="`false` only where it is known",
+)
+
 
 class ObstacleSpec(ABC):
     """An obstacle of any kind, as checked data.
@@ -63,6 +71,7 @@ class ObstacleSpec(ABC):
     rotation: Quaternion
     motion: Optional[Motion]
     known: bool
+    real: bool
 
     @property
     def endless(self) -> str:
@@ -119,8 +128,9 @@ class ObstacleSpec(ABC):
         mapping = {key: values[attribute] for key, (attribute, _) in declared(self).items()}
         if self.motion is None:
             mapping.pop("motion", None)
-        if self.known:
-            mapping.pop("known", None)
+        for key in ("known", "real"):
+            if getattr(self, key):
+                mapping.pop(key, None)
         return mapping
 
 

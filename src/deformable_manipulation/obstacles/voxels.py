@@ -18,6 +18,7 @@ from deformable_manipulation.obstacles.spec import (
     KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -62,6 +63,7 @@ class VoxelObstacle(ObstacleSpec):
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
     known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def endless(self) -> str:

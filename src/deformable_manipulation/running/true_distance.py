@@ -18,7 +18,7 @@ class TrueDistance:
 
     def __init__(self, scenario: Scenario, simulation):
         self._simulation = simulation
-        self._is_seen = all(each.known and not each.is_live for each in scenario.obstacles)
+        self._is_seen = all(each.known and each.real for each in scenario.obstacles)
         self._distance = make_minimum_distance(scenario)
         self._obstacles = MovingObstacles(scenario)
 

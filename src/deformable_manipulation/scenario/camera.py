@@ -129,10 +129,22 @@ def check_live_obstacles(report: Report, obstacles, controller) -> None:
             )
 
 
+def check_presence(report: Report, obstacles) -> None:
+    """An obstacle is there, or in a map, or both."""
+    for index, obstacle in enumerate(obstacles):
+        if not obstacle.known and not obstacle.real:
+            report.add(
+                ("obstacles", str(index), "real"),
+                "must not be false where known is, too; remove one of the two, or the obstacle",
+                "false",
+            )
+
+
 def check_knowledge(report: Report, obstacles, knowledge) -> None:
     """Imperfect knowledge is of runs whose obstacles are known."""
-    if not knowledge.sees_object and any(each.is_live or not each.known for each in obstacles):
+    if not knowledge.sees_object and not all(each.known and each.real for each in obstacles):
         report.add(
             ("knowledge",),
-            "cannot be combined with obstacles that are live or not known; remove one of the two",
+            "cannot be combined with obstacles that are live, not known or not real; remove one of "
+            "the two",
         )

@@ -20,6 +20,7 @@ from deformable_manipulation.scenario.camera import (
     check_camera,
     check_knowledge,
     check_live_obstacles,
+    check_presence,
 )
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
@@ -147,6 +148,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_delay, "controller", "knowledge")
     check(check_camera, "frame", "controller", "camera")
     check(check_live_obstacles, "obstacles", "controller")
+    check(check_presence, "obstacles")
     check(check_knowledge, "obstacles", "knowledge")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")

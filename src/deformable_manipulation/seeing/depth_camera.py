@@ -36,8 +36,9 @@ class DepthCamera:
         self._scenario, self._camera = scenario, camera
         self._raster = Raster(camera.width, camera.height, camera.field_of_view)
         self._axes = camera_axes(camera)
-        standing = [each for each in scenario.obstacles if not _is_on_path(each)]
-        self._moving = [each for each in scenario.obstacles if _is_on_path(each)]
+        real = [each for each in scenario.obstacles if each.real]
+        standing = [each for each in real if not _is_on_path(each)]
+        self._moving = [each for each in real if _is_on_path(each)]
         self._background = self._depths([self._triangles(each) for each in standing])
 
     @property
