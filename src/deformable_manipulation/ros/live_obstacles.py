@@ -11,26 +11,29 @@ from deformable_manipulation.seeing.sight import is_of_camera
 
 
 class LiveObstacles:
-    """Puts what is seen into a minimum distance, between two states.
+    """What is seen of live obstacles; puts it into a minimum distance, between two states.
 
     Reads the node's parameters ``~lockstep`` and ``~camera``: with both, a state waits for the
     image of the scenario's camera that is due before it.
 
     Args:
         scenario: the checked scenario.
-        distance: MinimumDistance.
+        distance: MinimumDistance; None: others compute the distances, and show what is used.
     """
 
-    def __init__(self, scenario, distance):
+    def __init__(self, scenario, distance=None):
         indices = live_obstacles(scenario)
         lockstep = rospy.get_param("~lockstep", False)
         self._history = StateHistory()
         transforms = Transforms(scenario.frame)
         self._sources = {
-            index: LiveSource(scenario, index, self._history, transforms, lockstep)
+            index: LiveSource(
+                scenario, index, self._history, transforms, lockstep, distance is not None
+            )
             for index in indices
         }
-        self._seen = SeenObstacles(distance, {index: index for index in indices})
+        places = {} if distance is None else {index: index for index in indices}
+        self._seen = SeenObstacles(distance, places)
         self._cycle_time = scenario.cycle_time
         self._reset_count = None
         self._awaited = []
@@ -40,13 +43,13 @@ class LiveObstacles:
                 source for index, source in self._sources.items() if is_of_camera(scenario, index)
             ]
 
-    def move(self, state, points, positions):
+    def move(self, state, points, carried):
         """Let the distances of a state be from what is seen by now.
 
         Args:
             state: ObjectState.
             points: (C, P, 3) m, of its copies.
-            positions: (A, 3) m, held points in the scenario's order; and orientations (A, 4).
+            carried: held points (A, 3) [m] and orientations (A, 4), in the scenario's order.
 
         Returns:
             Which obstacles are lost, as a clause; empty where all are known.
@@ -58,7 +61,7 @@ class LiveObstacles:
             for source in self._sources.values():
                 source.reset()
         self._reset_count = state.reset_count
-        self._history.add(CarriedState(stamp, points[0].copy(), *positions))
+        self._history.add(CarriedState(stamp, points[0].copy(), *carried))
         self._await_image(state, stamp)
         self._seen.show(self.seen())
         for source in self._sources.values():

@@ -31,9 +31,10 @@ class LiveSource:
         history: StateHistory of the carried object.
         transforms: Transforms.
         lockstep: data of a state are taken in once that state has been answered.
+        shows: whether it publishes the points that are used.
     """
 
-    def __init__(self, scenario, index, history, transforms, lockstep):
+    def __init__(self, scenario, index, history, transforms, lockstep, shows):
         self._map = LiveMap(scenario, index)
         self._frame = scenario.frame
         self._history, self._transforms, self._lockstep = history, transforms, lockstep
@@ -45,7 +46,14 @@ class LiveSource:
         self._done = self._answered = float("-inf")  # s, stamps
         self._copies = None  # (C, P, 3) m, of the newest state
         self._senders = {}  # when each has sent last [s] of time.monotonic()
-        self._used = rospy.Publisher(f"{self._topic}/used", PointCloud2, queue_size=1, latch=True)
+        self._used = None
+        if shows:
+            self._used = rospy.Publisher(
+                f"{self._topic}/used",
+                PointCloud2,
+                subscriber_listener=_Late(self._used_points),
+                queue_size=1,
+            )
         node.subscribe(self._topic, PointCloud2, self._on_message, buffer_size=_BUFFER_SIZE)
         threading.Thread(target=self._work, daemon=True).start()
 
@@ -117,8 +125,13 @@ class LiveSource:
         state = self._state_at(stamp)
         copies = None if self._lockstep else self._copies
         self._map.take(stamp, values, pose, state, self._transforms.find, copies)
-        if self._used.get_num_connections():
-            self._used.publish(to_point_cloud(self._map.seen.places[-1], stamp, self._frame))
+        if self._used is not None and self._used.get_num_connections():
+            self._used.publish(self._used_points())
+
+    def _used_points(self):
+        """The newest points that are not left out, or None."""
+        seen = self._map.seen
+        return seen and to_point_cloud(seen.places[-1], seen.time, self._frame)
 
     def _check_time(self, stamp):
         """Raises ValueError: data are too old to be used, or not newer than what is known."""
@@ -145,3 +158,20 @@ class LiveSource:
         if state is None:
             raise ValueError("there is no state of the object yet, near which points are left out")
         return state
+
+
+class _Late(rospy.SubscribeListener):
+    """Gives whoever subscribes the newest message at once.
+
+    Args:
+        newest: function without arguments that gives it, or None.
+    """
+
+    def __init__(self, newest):
+        super().__init__()
+        self._newest = newest
+
+    def peer_subscribe(self, _topic, _publish, publish_to_peer):
+        message = self._newest()
+        if message is not None:
+            publish_to_peer(message)
