@@ -124,7 +124,7 @@ def _clouds(scenario):
     """Data of live obstacles: all of them, and over them those that are not left out."""
     for topic in dict.fromkeys(each.topic for each in scenario.obstacles if each.is_live):
         yield _points("Seen on " + topic, topic, _LEFT_OUT, 2)
-        yield _points("Used of it", topic + "/used", _USED, 4)
+        yield _points("Used of it", topic + "/used", _USED, 3)
 
 
 def _points(name, topic, color, size):

@@ -89,8 +89,8 @@ def assess(
         relaxed=int(np.count_nonzero(status == Status.RELAXED)),
         failed=int(np.count_nonzero(status == Status.FAILED)),
         oscillation=oscillation(distance, constrained, rate),
-        tracking_error=float(error[:, _undisturbed(constrained, rate)].max(initial=0.0)),
-        final_error=float(error[:, -1:].max(initial=0.0)),
+        tracking_error=_largest(error[:, _undisturbed(constrained, rate)]),
+        final_error=_largest(error[:, -1:]),
         constrained=float(constrained.mean()) if constrained.size else 0.0,
         shape_error=largest_stretch(series.column("stretch")) or 0.0,
     )
@@ -131,6 +131,11 @@ def _undisturbed(constrained: np.ndarray, rate: float) -> np.ndarray:
 
 def _last_rows(scenario) -> int:
     return int(DEADLOCK_TIME * scenario.controller.rate)
+
+
+def _largest(errors: np.ndarray) -> float:
+    """Of errors [m]; nan: an assistant knew nothing of its state yet."""
+    return float(np.nanmax(errors, initial=0.0))
 
 
 def _stays_away(scenario, series, error) -> bool:
