@@ -82,7 +82,7 @@ def assess(
         problem=problem or "",
         min_distance=lowest,
         violations={
-            name: _below_zero(_of_assistants(series, f"h_{name}")) for name in series.barriers
+            name: _below_zero(_true_margins(scenario, series, name)) for name in series.barriers
         },
         deadlock=away and _is_free(scenario, distance),
         stuck=away,
@@ -156,6 +156,13 @@ def _is_free(scenario, distance) -> bool:
     collision = scenario.controller.collision
     lowest = distance[-_last_rows(scenario) :].min()
     return bool(lowest > collision.offset + collision.band)
+
+
+def _true_margins(scenario, series: TimeSeries, barrier: str) -> np.ndarray:
+    """h [m] of a barrier: as the controllers know it, or of the true distance if they do not."""
+    if barrier == "collision" and not all(each.known and each.real for each in scenario.obstacles):
+        return series.column("distance") - scenario.controller.collision.offset
+    return _of_assistants(series, f"h_{barrier}")
 
 
 def _below_zero(margins: np.ndarray) -> float:

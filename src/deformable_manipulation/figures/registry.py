@@ -104,7 +104,7 @@ SUBJECT_LIST: Sequence[Subject] = (
     ),
     Subject(
         {"campaigns_seen": SAFETY},
-        "run_campaign rope_over_depth_camera --runs 100 --seed 1 --duration 60",
+        "run_campaign rope_over_depth_camera --runs 20 --seed 1 --duration 60",
         CAMPAIGNS,
         seen.measure_seen_campaign,
     ),

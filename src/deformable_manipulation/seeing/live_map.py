@@ -104,7 +104,7 @@ class LiveMap:
         Raises:
             ValueError: they cannot be used; a clause that says why. What was known stays.
         """
-        finite = np.isfinite(values[:, :3]).all(axis=1)
+        finite = np.isfinite(values[:, 0] + values[:, 1] + values[:, 2])
         values = values if finite.all() else values[finite]
         places = _placed(values[:, :3], *pose)
         own = self._own.mark(places, state, find_frame)

@@ -1,5 +1,6 @@
 """What a campaign counts in a run, on tables whose content is known."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -67,6 +68,22 @@ class Run:
 @pytest.fixture
 def run(tmp_path):
     return Run(tmp_path)
+
+
+def test_the_true_distance_counts_where_the_controllers_do_not_know_the_obstacles(run):
+    offset = run.scenario.controller.collision.offset
+    run.set("distance", offset - 0.003, slice(10, 11))
+    assert run.assess().violations["collision"] == 0.0  # as they know it
+    hidden = tuple(dataclasses.replace(each, known=False) for each in run.scenario.obstacles)
+    run.scenario = dataclasses.replace(run.scenario, obstacles=hidden)
+    assert run.assess().violations["collision"] == pytest.approx(0.003)
+
+
+def test_what_is_not_known_yet_is_no_error(run):
+    for name in run.series.assistants:
+        run.set(f"{name}.error_norm", math.nan, slice(1))
+    outcome = run.assess()
+    assert outcome.tracking_error == outcome.final_error == 0.0
 
 
 def test_a_run_in_which_nothing_happens(run):
