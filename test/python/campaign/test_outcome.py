@@ -10,6 +10,7 @@ from synthetic_run import make_record, make_scenario
 from deformable_manipulation.campaign.outcome import assess, oscillation
 from deformable_manipulation.campaign.runs import SeriesRecorder
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.obstacles.primitives import Sphere, SphereObstacle
 
 RATE = 100.0
 
@@ -74,8 +75,8 @@ def test_the_true_distance_counts_where_the_controllers_do_not_know_the_obstacle
     offset = run.scenario.controller.collision.offset
     run.set("distance", offset - 0.003, slice(10, 11))
     assert run.assess().violations["collision"] == 0.0  # as they know it
-    hidden = tuple(dataclasses.replace(each, known=False) for each in run.scenario.obstacles)
-    run.scenario = dataclasses.replace(run.scenario, obstacles=hidden)
+    hidden = SphereObstacle("ball", Sphere(0.1), known=False)
+    run.scenario = dataclasses.replace(run.scenario, obstacles=(hidden,))
     assert run.assess().violations["collision"] == pytest.approx(0.003)
 
 
