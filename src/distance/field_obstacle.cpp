@@ -47,7 +47,10 @@ std::vector<std::string> problemsOf(const std::vector<float>& values, const std:
 class FieldObstacle::Search {
  public:
   Search(std::shared_ptr<const DistanceField> field, const Vector3& origin, bool is_free_outside)
-      : field_(std::move(field)), origin_(origin), is_free_outside_(is_free_outside), search_(*field_, is_free_outside) {}
+      : field_(std::move(field)),
+        origin_(origin),
+        is_free_outside_(is_free_outside),
+        search_(*field_, is_free_outside) {}
 
   //! In the same field, at the same place.
   Search(const Search& other) : Search(other.field_, other.origin_, other.is_free_outside_) { frame = other.frame; }
