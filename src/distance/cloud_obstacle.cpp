@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "coordinate_limit.h"
@@ -64,25 +66,15 @@ std::size_t PointCloud::size() const { return tree_ == nullptr ? 0 : tree_->size
 
 std::size_t PointCloud::bytes() const { return tree_ == nullptr ? 0 : tree_->bytes(); }
 
-//! A cloud, the object in its frame, and what was nearest last.
+//! A cloud with points, the object in its frame, and what was nearest last.
 class CloudObstacle::Search {
  public:
-  explicit Search(double radius) : radius_(radius) {}
+  Search(const PointCloud& cloud, double radius)
+      : radius_(radius), middle_(cloud.middle()), tree_(cloud.tree()), search_(tree_) {}
 
   ObstacleFrame frame;
 
-  void setCloud(const PointCloud& cloud) {
-    tree_ = cloud.tree();
-    middle_ = cloud.middle();
-    search_.setCloud(tree_);
-    known_.clear();
-  }
-
   void minima(const ObjectView& object, Feature* nearest) {
-    if (tree_ == nullptr) {
-      std::fill_n(nearest, object.copies, nothing());
-      return;
-    }
     prepare(object);
     for (int copy = 0; copy < object.copies; ++copy) {
       bring(object, copy);
@@ -92,7 +84,7 @@ class CloudObstacle::Search {
   }
 
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) {
-    if (tree_ == nullptr || !(limit + radius_ >= 0.0)) {
+    if (!(limit + radius_ >= 0.0)) {
       return;
     }
     prepare(object);
@@ -110,12 +102,6 @@ class CloudObstacle::Search {
     PointPlace nearest;
     MovingBounds bounds;
   };
-
-  static Feature nothing() {
-    Feature feature;
-    feature.distance = INFINITY;
-    return feature;
-  }
 
   //! What was nearest to this copy, or else is to the one before.
   PointPlace guess(int copy) const {
@@ -153,8 +139,8 @@ class CloudObstacle::Search {
     return feature;
   }
 
-  double radius_;                     // m
-  Vector3 middle_ = Vector3::Zero();  // m
+  double radius_;   // m
+  Vector3 middle_;  // m
   std::shared_ptr<const PointTree> tree_;
   PointSearch search_;
   LocalCopies copies_;
@@ -162,35 +148,60 @@ class CloudObstacle::Search {
   std::vector<PointPlace> places_;
 };
 
-CloudObstacle::CloudObstacle(const std::shared_ptr<const PointCloud>& cloud, double radius) {
+CloudObstacle::CloudObstacle(const std::vector<std::shared_ptr<const PointCloud>>& clouds, double radius) {
   std::vector<std::string> problems;
   if (!(radius >= 0.0 && radius <= kLargestCoordinate)) {
     std::ostringstream text;
     text << "radius is " << radius << "; it must be 0 or more, at most 1e6 m";
     problems.push_back(text.str());
   }
+  if (std::find(clouds.begin(), clouds.end(), nullptr) != clouds.end()) {
+    problems.push_back("there is no cloud; without points, give one that is empty");
+  }
   throwIfAny(problems);
-  search_ = std::make_unique<Search>(radius);
-  setCloud(cloud);
+  for (const std::shared_ptr<const PointCloud>& cloud : clouds) {
+    if (cloud->size() > 0) {
+      searches_.push_back(std::make_unique<Search>(*cloud, radius));
+    }
+  }
 }
 
 CloudObstacle::~CloudObstacle() = default;
 
-void CloudObstacle::setCloud(const std::shared_ptr<const PointCloud>& cloud) {
-  if (cloud == nullptr) {
-    throwIfAny({"there is no cloud; without points, give one that is empty"});
-  }
-  search_->setCloud(*cloud);
-}
-
 void CloudObstacle::place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) {
-  search_->frame.set(translation, rotation, velocity);
+  for (const std::unique_ptr<Search>& search : searches_) {
+    search->frame.set(translation, rotation, velocity);
+  }
 }
 
-void CloudObstacle::minima(const ObjectView& object, Feature* nearest) { search_->minima(object, nearest); }
+void CloudObstacle::minima(const ObjectView& object, Feature* nearest) {
+  Feature nothing;
+  nothing.distance = INFINITY;
+  std::fill_n(nearest, object.copies, nothing);
+  of_one_.resize(object.copies);
+  for (const std::unique_ptr<Search>& search : searches_) {
+    search->minima(object, of_one_.data());
+    for (int copy = 0; copy < object.copies; ++copy) {
+      if (of_one_[copy].distance < nearest[copy].distance) {
+        nearest[copy] = of_one_[copy];
+      }
+    }
+  }
+}
 
 void CloudObstacle::features(const ObjectView& object, double limit, std::vector<Feature>* found) {
-  search_->features(object, limit, found);
+  const auto first = static_cast<std::ptrdiff_t>(found->size());
+  for (const std::unique_ptr<Search>& search : searches_) {
+    search->features(object, limit, found);
+  }
+  if (searches_.size() > 1) {  // of the same element, only the nearest
+    const auto begin = found->begin() + first;
+    std::sort(begin, found->end(), [](const Feature& a, const Feature& b) {
+      return std::tie(a.vertices, a.distance) < std::tie(b.vertices, b.distance);
+    });
+    const auto same = [](const Feature& a, const Feature& b) { return a.vertices == b.vertices; };
+    found->erase(std::unique(begin, found->end(), same), found->end());
+  }
 }
 
 }  // namespace distance

@@ -17,6 +17,7 @@ DistanceField::DistanceField(std::vector<float> values, const Index& size, const
     : values_(std::move(values)), size_(size), spacing_(spacing) {
   for (int axis = 0; axis < 3; ++axis) {
     extent_[axis] = spacing[axis] * (size[axis] - 1);
+    inverse_[axis] = 1.0 / spacing[axis];
   }
   levels_.push_back(merged({size_, values_, {}}, 1));
   levels_[0].slopes = slopesOfCells();
@@ -87,23 +88,23 @@ DistanceField::Level DistanceField::merged(const Level& below, int stride) {
 DistanceField::Index DistanceField::cellOf(const Vector3& point) const {
   Index cell;
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = std::floor(point[axis] / spacing_[axis]);
-    cell[axis] = static_cast<int>(std::min(std::max(place, 0.0), size_[axis] - 2.0));
+    // Not below 0, so that what is behind the point is cut off downwards.
+    cell[axis] = static_cast<int>(std::min(std::max(point[axis] * inverse_[axis], 0.0), size_[axis] - 2.0));
   }
   return cell;
 }
 
 CellExpansion DistanceField::expand(const Index& cell, const Vector3& point) const {
   // Values at the cell's corners become the coefficients of 1, z, y, yz, x, xz, xy, xyz from its lowest corner.
-  std::array<double, 8> c;
-  for (int corner = 0; corner < 8; ++corner) {
-    c[corner] = at(cell[0] + (corner >> 2), cell[1] + (corner >> 1 & 1), cell[2] + (corner & 1));
-  }
+  const std::size_t row = size_[2], layer = row * size_[1];
+  const float* lowest = values_.data() + cell[0] * layer + cell[1] * row + cell[2];
+  std::array<double, 8> c = {lowest[0],     lowest[1],         lowest[row],         lowest[row + 1],
+                             lowest[layer], lowest[layer + 1], lowest[layer + row], lowest[layer + row + 1]};
   for (int axis = 0; axis < 3; ++axis) {
     const int bit = 4 >> axis;
     for (int corner = 0; corner < 8; ++corner) {
       if ((corner & bit) != 0) {
-        c[corner] = (c[corner] - c[corner ^ bit]) / spacing_[axis];
+        c[corner] = (c[corner] - c[corner ^ bit]) * inverse_[axis];
       }
     }
   }

@@ -73,6 +73,7 @@ class DistanceField {
   Index size_;
   std::vector<Level> levels_;  // blocks of 1, 2, 4, ... cells along each axis
   Vector3 spacing_, extent_;   // m
+  Vector3 inverse_;            // 1/m, of the spacing
   double steepness_ = 0.0;
 };
 

@@ -46,8 +46,14 @@ std::vector<std::string> problemsOf(const std::vector<float>& values, const std:
 //! A field with the object in its frame.
 class FieldObstacle::Search {
  public:
-  Search(DistanceField field, const Vector3& origin, bool is_free_outside)
-      : field_(std::move(field)), origin_(origin), search_(field_, is_free_outside) {}
+  Search(std::shared_ptr<const DistanceField> field, const Vector3& origin, bool is_free_outside)
+      : field_(std::move(field)),
+        origin_(origin),
+        is_free_outside_(is_free_outside),
+        search_(*field_, is_free_outside) {}
+
+  //! In the same field, at the same place.
+  Search(const Search& other) : Search(other.field_, other.origin_, other.is_free_outside_) { frame = other.frame; }
 
   ObstacleFrame frame;
 
@@ -135,8 +141,9 @@ class FieldObstacle::Search {
     return feature;
   }
 
-  DistanceField field_;
+  std::shared_ptr<const DistanceField> field_;
   Vector3 origin_;  // m
+  bool is_free_outside_;
   FieldSearch search_;
   LocalCopies copies_;
   std::vector<MovingBounds> bounds_;  // [copies] of their elements
@@ -145,7 +152,14 @@ class FieldObstacle::Search {
 FieldObstacle::FieldObstacle(std::vector<float> values, const std::array<int, 3>& size, const Vector3& origin,
                              const Vector3& spacing, bool is_free_outside) {
   throwIfAny(problemsOf(values, size, origin, spacing));
-  search_ = std::make_unique<Search>(DistanceField(std::move(values), size, spacing), origin, is_free_outside);
+  search_ = std::make_unique<Search>(std::make_shared<const DistanceField>(std::move(values), size, spacing), origin,
+                                     is_free_outside);
+}
+
+FieldObstacle::FieldObstacle(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+
+std::shared_ptr<FieldObstacle> FieldObstacle::another() const {
+  return std::shared_ptr<FieldObstacle>(new FieldObstacle(std::make_unique<Search>(*search_)));
 }
 
 FieldObstacle::~FieldObstacle() = default;

@@ -42,7 +42,14 @@ class MeshObstacle::Search {
  public:
   explicit Search(std::vector<MeshPart> parts) : middle_(centre(&parts)) {
     for (const MeshPart& part : parts) {
-      parts_.push_back({std::make_unique<MeshSearch>(part), {}});
+      parts_.push_back({std::make_unique<MeshSearch>(std::make_shared<const MeshSurface>(part)), {}});
+    }
+  }
+
+  //! Of the same surfaces, at the same place.
+  Search(const Search& other) : frame(other.frame), middle_(other.middle_) {
+    for (const Part& part : other.parts_) {
+      parts_.push_back({std::make_unique<MeshSearch>(part.search->sharedSurface()), {}});
     }
   }
 
@@ -185,6 +192,10 @@ std::shared_ptr<MeshObstacle> MeshObstacle::ofCells(const std::vector<std::array
   throwIfAny(problems);
   std::vector<MeshPart> parts = {surfaceOfCells(cells, size, endless)};
   return std::shared_ptr<MeshObstacle>(new MeshObstacle(std::make_unique<Search>(std::move(parts))));
+}
+
+std::shared_ptr<MeshObstacle> MeshObstacle::another() const {
+  return std::shared_ptr<MeshObstacle>(new MeshObstacle(std::make_unique<Search>(*search_)));
 }
 
 MeshObstacle::~MeshObstacle() = default;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "element_depth.h"
@@ -30,9 +32,11 @@ struct MeshPlace {
 //! inside; then its deepest point is searched, triangle by triangle (ElementDepth).
 class MeshSearch : private NearestPairs<MeshSearch> {
  public:
-  explicit MeshSearch(const MeshPart& part) : surface_(part), depth_(surface_) {}
+  explicit MeshSearch(std::shared_ptr<const MeshSurface> surface)
+      : shared_(std::move(surface)), surface_(*shared_), depth_(surface_) {}
 
   const MeshSurface& surface() const { return surface_; }
+  const std::shared_ptr<const MeshSurface>& sharedSurface() const { return shared_; }
 
   //! The point with the least signed distance.
   //! @param object with the points of one copy
@@ -83,7 +87,8 @@ class MeshSearch : private NearestPairs<MeshSearch> {
   double lowestPossible(int element, double* least);
   MeshPlace middleOfLevel(const MeshPlace& place);
 
-  MeshSurface surface_;
+  std::shared_ptr<const MeshSurface> shared_;
+  const MeshSurface& surface_;  // that
   ElementDepth depth_;
   SearchStack<int> stack_;             // nodes, or leaves as ~index
   std::vector<SurfacePoint> samples_;  // of the object's points

@@ -72,6 +72,14 @@ MinimumDistance::MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacle
   requireLength("band", band);
 }
 
+void MinimumDistance::replace(std::size_t index, std::shared_ptr<Obstacle> obstacle) {
+  if (index >= obstacles_.size() || obstacle == nullptr) {
+    throw std::invalid_argument("obstacle " + std::to_string(index) + " cannot be replaced: there are " +
+                                std::to_string(obstacles_.size()) + ", and another one is needed in its place");
+  }
+  obstacles_[index] = std::move(obstacle);
+}
+
 const Distances& MinimumDistance::compute(const ObjectView& object) {
   requireGeometry(object);
   nearest_.assign(object.copies, Feature());

@@ -36,8 +36,6 @@ class NearestPairs {
     last_pieces_.resize(object.size(), -1);
   }
 
-  void forgetPieces() { last_pieces_.clear(); }
-
   //! The nearest pair of all, if it is not farther apart than the bound [m]. Of pairs as near to rounding it is always
   //! the same one, whatever was known before.
   Nearest nearestPair(double bound) {

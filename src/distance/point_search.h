@@ -23,12 +23,7 @@ struct PointPlace {
 //! Searches the points of a cloud that are nearest to an object.
 class PointSearch : private NearestPairs<PointSearch> {
  public:
-  //! Another cloud from now on.
-  void setCloud(std::shared_ptr<const PointTree> tree) {
-    tree_ = std::move(tree);
-    forgetPieces();
-  }
-  const PointTree& tree() const { return *tree_; }
+  explicit PointSearch(std::shared_ptr<const PointTree> tree) : tree_(std::move(tree)) {}
 
   //! The nearest pair of all.
   //! @param object with the points of one copy

@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "deformable_manipulation/distance/cloud_obstacle.h"
+#include "deformable_manipulation/distance/near_elements.h"
 #include "distance_arguments.h"
 
 namespace py = pybind11;
@@ -18,11 +20,50 @@ std::shared_ptr<PointCloud> made(const py::array& given) {
   return std::make_shared<PointCloud>(points.data(), static_cast<std::size_t>(points.shape(0)));
 }
 
-std::shared_ptr<PointCloud> toCloud(const py::array& given) {
+void requirePoints(const py::array& given) {
   if (given.ndim() != 2 || given.shape(1) != 3 || std::string("fiu").find(given.dtype().kind()) == std::string::npos) {
     throw py::value_error("points must be numbers of the shape (points, 3)");
   }
+}
+
+std::shared_ptr<PointCloud> toCloud(const py::array& given) {
+  requirePoints(given);
   return given.dtype().is(py::dtype::of<float>()) ? made<float>(given) : made<double>(given);
+}
+
+using Clouds = std::vector<std::shared_ptr<const PointCloud>>;
+
+std::vector<NearElement> toElements(const Points& corners, const Points& reaches) {
+  if (corners.ndim() != 3 || corners.shape(1) != 3 || corners.shape(2) != 3) {
+    throw py::value_error("elements must have the shape (elements, 3, 3)");
+  }
+  if (reaches.ndim() != 1 || reaches.shape(0) != corners.shape(0)) {
+    throw py::value_error("there must be one reach for each element");
+  }
+  std::vector<NearElement> elements(static_cast<std::size_t>(corners.shape(0)));
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      elements[i].corners[k] = Eigen::Map<const Vector3>(corners.data() + 9 * i + 3 * k);
+    }
+    elements[i].reach = reaches.data()[i];
+  }
+  return elements;
+}
+
+template <typename Number>
+py::array_t<bool> marked(const py::array& given, const NearElements& elements) {
+  const py::array_t<Number, py::array::c_style | py::array::forcecast> points(given);
+  py::array_t<bool> marks(points.shape(0));
+  bool* to = marks.mutable_data();
+  const py::gil_scoped_release others_go_on;
+  elements.mark(points.data(), static_cast<std::size_t>(points.shape(0)), to);
+  return marks;
+}
+
+py::array_t<bool> nearElements(const py::array& points, const Points& corners, const Points& reaches) {
+  requirePoints(points);
+  const NearElements elements(toElements(corners, reaches));
+  return points.dtype().is(py::dtype::of<float>()) ? marked<float>(points, elements) : marked<double>(points, elements);
 }
 
 }  // namespace
@@ -38,13 +79,20 @@ void bindCloudObstacle(py::module_& module) {
       .def_property_readonly("left_out", &PointCloud::leftOut, "How many points are left out.")
       .def_property_readonly("bytes", &PointCloud::bytes, "Memory that it takes.");
   py::class_<CloudObstacle, Obstacle, std::shared_ptr<CloudObstacle>>(
-      module, "CloudObstacle", "The points of a PointCloud as balls of one radius [m], 0 or more; it may be empty.")
+      module, "CloudObstacle",
+      "The points of one or several PointCloud, or of none, as balls of one radius [m], 0 or more.\n\n"
+      "Raises ValueError: the radius is wrong.")
       .def(py::init([](const std::shared_ptr<PointCloud>& cloud, double radius) {
-             return std::make_shared<CloudObstacle>(cloud, radius);
+             return std::make_shared<CloudObstacle>(Clouds{cloud}, radius);
            }),
            py::arg("cloud"), py::arg("radius"))
-      .def(
-          "set_cloud",
-          [](CloudObstacle& obstacle, const std::shared_ptr<PointCloud>& cloud) { obstacle.setCloud(cloud); },
-          py::arg("cloud"), "Another cloud from the next computation on.");
+      .def(py::init([](const std::vector<std::shared_ptr<PointCloud>>& clouds, double radius) {
+             return std::make_shared<CloudObstacle>(Clouds(clouds.begin(), clouds.end()), radius);
+           }),
+           py::arg("clouds"), py::arg("radius"));
+  module.def("near_elements", &nearElements, py::arg("points"), py::arg("elements"), py::arg("reaches"),
+             "Which of the points (N, 3) [m] are within the reaches (E,) [m] of elements (E, 3, 3) [m]: triangles, or\n"
+             "segments as start, end, end, or points three times. Flags (N,); points that are not finite are near "
+             "nothing.\n"
+             "Raises ValueError: a shape is wrong, or a number of an element is not finite.");
 }

@@ -24,6 +24,40 @@ void bindDistances(py::module_& module);
 
 namespace {
 
+//! The object that arguments from Python describe; valid as long as they are.
+class GivenObject {
+ public:
+  GivenObject(const Points& points, const py::object& triangles) {
+    if (points.ndim() != 3 || points.shape(2) != 3) {
+      throw py::value_error("points must have the shape (copies, points, 3)");
+    }
+    view.points = points.data();
+    view.copies = static_cast<int>(points.shape(0));
+    view.point_count = static_cast<int>(points.shape(1));
+    if (!triangles.is_none()) {
+      faces_ = toTriangles(triangles, points.shape(1), "point", "points");
+      view.triangles = faces_.data();
+      view.triangle_count = static_cast<int>(faces_.size());
+    }
+  }
+
+  ObjectView view;
+
+ private:
+  std::vector<std::array<int, 3>> faces_;
+};
+
+NamedDistances compute(NamedMinimumDistance& distance, const Points& points, const py::object& triangles) {
+  return {distance.native.compute(GivenObject(points, triangles).view), distance.names};
+}
+
+void warm(const std::shared_ptr<Obstacle>& obstacle, const Points& points, const py::object& triangles) {
+  const GivenObject object(points, triangles);
+  MinimumDistance distance({obstacle}, 0.0, 0.0);
+  const py::gil_scoped_release others_go_on;
+  distance.compute(object.view);
+}
+
 void bindObstacle(py::module_& module) {
   py::class_<Obstacle, std::shared_ptr<Obstacle>>(module, "Obstacle", "Something to keep off.")
       .def(
@@ -35,7 +69,10 @@ void bindObstacle(py::module_& module) {
           py::arg("translation"), py::arg("rotation"), py::arg("linear_velocity") = Numbers3{},
           py::arg("angular_velocity") = Numbers3{},
           "Moves the obstacle. The velocities [m/s, rad/s] are those of its origin and about it, in the fixed frame.\n"
-          "Raises ValueError with all mistakes at once.");
+          "Raises ValueError with all mistakes at once.")
+      .def("warm", &warm, py::arg("points"), py::arg("triangles") = py::none(),
+           "Find what is near copies (C, P, 3) [m] of an object, so that the next computation for about the same ones\n"
+           "is as fast as any. Other threads of Python go on.");
 }
 
 void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
@@ -44,23 +81,6 @@ void requireObstacles(const std::vector<std::shared_ptr<Obstacle>>& obstacles) {
       throw py::value_error("obstacles[" + std::to_string(i) + "] is None; it must be an Obstacle");
     }
   }
-}
-
-NamedDistances compute(NamedMinimumDistance& distance, const Points& points, const py::object& triangles) {
-  if (points.ndim() != 3 || points.shape(2) != 3) {
-    throw py::value_error("points must have the shape (copies, points, 3)");
-  }
-  ObjectView object;
-  object.points = points.data();
-  object.copies = static_cast<int>(points.shape(0));
-  object.point_count = static_cast<int>(points.shape(1));
-  std::vector<std::array<int, 3>> faces;
-  if (!triangles.is_none()) {
-    faces = toTriangles(triangles, points.shape(1), "point", "points");
-    object.triangles = faces.data();
-    object.triangle_count = static_cast<int>(faces.size());
-  }
-  return {distance.native.compute(object), distance.names};
 }
 
 }  // namespace
@@ -86,6 +106,13 @@ PYBIND11_MODULE(_distance, module) {
                                       std::make_shared<const std::vector<std::string>>(std::move(names))});
            }),
            py::arg("obstacles"), py::arg("margin"), py::arg("band"), py::arg("names") = std::vector<std::string>())
+      .def(
+          "replace",
+          [](NamedMinimumDistance& distance, std::size_t index, const std::shared_ptr<Obstacle>& obstacle) {
+            distance.native.replace(index, obstacle);
+          },
+          py::arg("index"), py::arg("obstacle"),
+          "Another Obstacle in the place of one. Raises ValueError: there is no such place.")
       .def("compute", &compute, py::arg("points"), py::arg("triangles") = py::none(),
            "Distances of points (C, P, 3) [m] with triangles (T, 3), or None for a polyline. Raises ValueError for "
            "another shape or numbers that are not finite.");

@@ -1,6 +1,7 @@
 // Obstacles of signed distances on a grid for Python.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "deformable_manipulation/distance/field_obstacle.h"
@@ -23,8 +24,11 @@ void bindFieldObstacle(py::module_& module) {
              }
              const std::array<int, 3> size = {static_cast<int>(values.shape(0)), static_cast<int>(values.shape(1)),
                                               static_cast<int>(values.shape(2))};
-             return std::make_shared<FieldObstacle>(std::vector<float>(values.data(), values.data() + values.size()),
-                                                    size, toVector(origin), toVector(spacing), is_free_outside);
+             std::vector<float> copied(values.data(), values.data() + values.size());
+             const py::gil_scoped_release others_go_on;
+             return std::make_shared<FieldObstacle>(std::move(copied), size, toVector(origin), toVector(spacing),
+                                                    is_free_outside);
            }),
-           py::arg("values"), py::arg("origin"), py::arg("spacing"), py::arg("is_free_outside"));
+           py::arg("values"), py::arg("origin"), py::arg("spacing"), py::arg("is_free_outside"))
+      .def("another", &FieldObstacle::another, "The same field at the same place, for another thread.");
 }

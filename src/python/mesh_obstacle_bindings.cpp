@@ -64,6 +64,7 @@ void bindMeshObstacle(py::module_& module) {
       py::arg("cells"), py::arg("size"), py::arg("endless") = false,
       "Cubes as one solid: cells (N, 3) int32, of which (i, j, k) has the corners size * (i, j, k) and\n"
       "size * (i + 1, j + 1, k + 1) [m]; endless: they are free, and all else is solid.");
+  mesh.def("another", &MeshObstacle::another, "The same shape at the same place, for another thread.");
   mesh.def_property_readonly("warnings", &MeshObstacle::warnings,
                              "Sentences about what was dropped or turned, and what has no sign.");
 }

@@ -22,6 +22,8 @@ namespace {
 constexpr int kCopies = 13, kPoints = 46;
 constexpr double kRadius = 0.4;  // m, of the ball that all of them are
 
+using Clouds = std::vector<std::shared_ptr<const PointCloud>>;
+
 //! A rope that hangs over the ball, with its copies.
 std::vector<double> ropes(double height) {
   std::vector<double> points;
@@ -70,9 +72,13 @@ std::vector<Seen> balls() {
       }
     }
   }
-  const auto cloud = std::make_shared<PointCloud>(xyz.data(), xyz.size() / 3);
+  const std::size_t count = xyz.size() / 3, half = count / 2;
+  const auto cloud = std::make_shared<PointCloud>(xyz.data(), count);
+  const Clouds halves = {std::make_shared<PointCloud>(xyz.data(), half),
+                         std::make_shared<PointCloud>(xyz.data() + 3 * half, count - half)};
   return {{"sphere", PrimitiveObstacle::sphere(kRadius), 1e-9},
-          {"cloud", std::make_shared<CloudObstacle>(cloud, 0.0), 0.005},
+          {"cloud", std::make_shared<CloudObstacle>(Clouds{cloud}, 0.0), 0.005},
+          {"two clouds", std::make_shared<CloudObstacle>(halves, 0.0), 0.005},
           {"cells", MeshObstacle::ofCells(cells, 0.02), 0.02},
           {"field",
            std::make_shared<FieldObstacle>(values, std::array<int, 3>{50, 50, 50}, Vector3::Constant(-1.0),
@@ -117,13 +123,25 @@ TEST(SeenDistance, takesNoMemoryOnceWarm) {
 
 TEST(SeenDistance, anEmptyCloudIsNowhere) {
   const float nowhere[3] = {NAN, 0.0F, 0.0F};
-  const auto empty = std::make_shared<CloudObstacle>(std::make_shared<PointCloud>(nowhere, 1), 0.1);
-  MinimumDistance distance({empty}, 0.0, 0.1);
+  const Clouds empty = {std::make_shared<PointCloud>(nowhere, 1)};
   const std::vector<double> points = ropes(0.6);
-  const Distances& found = distance.compute(view(points));
-  EXPECT_EQ(found.features.size(), 0U);
-  EXPECT_EQ(found.minimum[kCopies - 1], INFINITY);
-  EXPECT_THROW(empty->setCloud(nullptr), std::invalid_argument);
+  for (const Clouds& clouds : {empty, Clouds()}) {
+    MinimumDistance distance({std::make_shared<CloudObstacle>(clouds, 0.1)}, 0.0, 0.1);
+    const Distances& found = distance.compute(view(points));
+    EXPECT_EQ(found.features.size(), 0U);
+    EXPECT_EQ(found.minimum[kCopies - 1], INFINITY);
+  }
+  EXPECT_THROW(CloudObstacle({nullptr}, 0.1), std::invalid_argument);
+}
+
+TEST(SeenDistance, isThatOfTheObstacleThatTookThePlace) {
+  const std::vector<double> points = ropes(0.6);
+  MinimumDistance distance({PrimitiveObstacle::sphere(0.1), PrimitiveObstacle::sphere(0.2)}, 0.0, 0.1);
+  const double before = distance.compute(view(points)).minimum[0];
+  distance.replace(1, PrimitiveObstacle::sphere(kRadius));
+  EXPECT_NEAR(distance.compute(view(points)).minimum[0], before + 0.2 - kRadius, 1e-12);
+  EXPECT_THROW(distance.replace(2, PrimitiveObstacle::sphere(0.1)), std::invalid_argument);
+  EXPECT_THROW(distance.replace(0, nullptr), std::invalid_argument);
 }
 
 }  // namespace

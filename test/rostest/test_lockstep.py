@@ -20,6 +20,7 @@ from observed_run import (
     turning_of,
 )
 
+from deformable_manipulation.control.status import Status
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.msg import ObjectState
@@ -66,7 +67,10 @@ class LockstepTest(unittest.TestCase):
         exact = self.scenario.controller.jacobian == "equilibrium"
         for name, controller in self.controllers.items():
             decisions = controller.wait_for_cycle(self.cycles - 1)[: self.cycles]
-            self.assertEqual({each.exact_jacobian for each in decisions}, {exact}, name)
+            # Until a camera's first image has come, there is nothing to decide on.
+            known = [each for each in decisions if each.status != Status.WAITING]
+            self.assertGreaterEqual(len(known), self.cycles - 1)
+            self.assertEqual({each.exact_jacobian for each in known}, {exact}, name)
 
     def test_the_positions_are_those_without_ros(self):
         assert_same_positions(self.states, self.records, self.scenario, TOLERANCE)
@@ -90,7 +94,9 @@ class LockstepTest(unittest.TestCase):
                 )
                 self.assertEqual(decision.status, expected.status, where)
                 self.assertEqual(decision.exact_jacobian, expected.exact_jacobian, where)
-                self.assertAlmostEqual(decision.distance, record.distance, delta=TOLERANCE)
+                np.testing.assert_allclose(
+                    decision.distance, expected.distance, 0.0, TOLERANCE, err_msg=where
+                )
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ class PointCloud {
   std::shared_ptr<const PointTree> tree_;
 };
 
-//! Points as balls of one radius.
+//! The points of several clouds as balls of one radius.
 //!
 //! Distances are exact to rounding. They are signed in each ball by itself: at its centre the distance is minus the
 //! radius. Normals point from the nearest point to the object, inside a ball, too. Without points, distances are
@@ -46,14 +46,11 @@ class PointCloud {
 //! Features: the nearest point to each segment or triangle, however many points are near.
 class CloudObstacle : public Obstacle {
  public:
+  //! @param clouds each with its own tree, so that one of them can be replaced while the others are kept; none: nothing
   //! @param radius [m] of the balls, may be 0
-  //! @throw std::invalid_argument the radius is negative or not finite, or there is no cloud
-  CloudObstacle(const std::shared_ptr<const PointCloud>& cloud, double radius);
+  //! @throw std::invalid_argument the radius is negative or not finite, or a cloud is null
+  CloudObstacle(const std::vector<std::shared_ptr<const PointCloud>>& clouds, double radius);
   ~CloudObstacle() override;
-
-  //! Another cloud from the next call on.
-  //! @throw std::invalid_argument there is none
-  void setCloud(const std::shared_ptr<const PointCloud>& cloud);
 
   void minima(const ObjectView& object, Feature* nearest) override;
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
@@ -62,7 +59,8 @@ class CloudObstacle : public Obstacle {
   class Search;
   void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) override;
 
-  std::unique_ptr<Search> search_;
+  std::vector<std::unique_ptr<Search>> searches_;  // of the clouds that have points
+  std::vector<Feature> of_one_;                    // [copies] of one cloud
 };
 
 }  // namespace distance

@@ -29,11 +29,15 @@ class FieldObstacle : public Obstacle {
                 const Vector3& spacing, bool is_free_outside);
   ~FieldObstacle() override;
 
+  //! The same field at the same place, for another thread; its values are shared.
+  std::shared_ptr<FieldObstacle> another() const;
+
   void minima(const ObjectView& object, Feature* nearest) override;
   void features(const ObjectView& object, double limit, std::vector<Feature>* found) override;
 
  private:
   class Search;
+  explicit FieldObstacle(std::unique_ptr<Search> search);
   void place(const Vector3& translation, const pbd::Quaternion& rotation, const pbd::Twist& velocity) override;
 
   std::unique_ptr<Search> search_;

@@ -47,6 +47,9 @@ class MeshObstacle : public Obstacle {
                                                bool endless = false);
   ~MeshObstacle() override;
 
+  //! The same shape at the same place, for another thread; its surface is shared.
+  std::shared_ptr<MeshObstacle> another() const;
+
   //! Sentences about what was dropped or turned, and what has no sign.
   const std::vector<std::string>& warnings() const { return warnings_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,10 @@ class MinimumDistance {
   //! @param band [m] features of copy 0 up to this much farther than its minimum are reported
   //! @throw std::invalid_argument if a length is negative or not finite
   MinimumDistance(std::vector<std::shared_ptr<Obstacle>> obstacles, double margin, double band);
+
+  //! Another obstacle in the place of one, from the next computation on.
+  //! @throw std::invalid_argument there is no such place, or the obstacle is null
+  void replace(std::size_t index, std::shared_ptr<Obstacle> obstacle);
 
   //! Copy 0 gets all its features within the band, every other copy only that of its minimum.
   //! It depends only on the arguments. The result is valid until the next call.

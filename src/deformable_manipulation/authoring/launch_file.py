@@ -7,7 +7,15 @@ from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.system.package_files import PACKAGE, package_share_directory
 
 # Arguments of run.launch that a scenario's launch file sets itself, or leaves to tests.
-NOT_PASSED_ON = ("scenario", "assistants", "leader", "rviz_config", "required", "observers")
+NOT_PASSED_ON = (
+    "scenario",
+    "assistants",
+    "leader",
+    "rviz_config",
+    "required",
+    "observers",
+    "camera",
+)
 
 _LAUNCH = """\
 <launch>
@@ -34,6 +42,8 @@ def launch_file(scenario: Scenario, scenario_file: str, rviz_file: str) -> str:
     names = " ".join(scenario.agents[index].name for index in scenario.assistants)
     arguments = [dict(known["assistants"], default=names)]
     arguments += [given for name, given in known.items() if name not in NOT_PASSED_ON]
+    if scenario.camera is not None:
+        arguments.append(dict(known["camera"], default="true"))
     settings = {"scenario": scenario_file, "rviz_config": rviz_file}
     leader = scenario.agents[scenario.leader_index].name
     if leader != known["leader"]["default"]:

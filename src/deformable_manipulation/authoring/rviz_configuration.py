@@ -11,7 +11,9 @@ _FAR = 40.0  # m, from which parallel lines stay parallel
 _CELL = 0.5  # m, of the grid
 _BEHIND = 0.3  # m, of the grid behind a flat scene: behind the obstacles as they are drawn
 _FLAT = 0.1  # of the scene's width
+_LEFT_OUT, _USED = "214; 39; 40", "60; 120; 90"  # red, green, blue
 _SAG = 0.6  # m, what the object hangs below the agents, about
+_ONTO = 0.75  # rad
 _PERSPECTIVE = 0.785  # rad, field of view
 
 # As RViz saves it; without it the panels would not stay hidden.
@@ -40,6 +42,8 @@ def rviz_configuration(scenario):
     low, high = _scene(scenario)
     flat = high[0] - low[0] < _FLAT * (high[1] - low[1])  # all goes on in the plane YZ
     perspective = _perspective(low, high, flat)
+    if any(obstacle.is_live for obstacle in scenario.obstacles):
+        perspective["Pitch"] = _ONTO  # what is in front of the scene may be as high as it
     return {
         "Panels": [
             {"Class": "rviz/Displays", "Name": "Displays", "Splitter Ratio": 0.5},
@@ -47,7 +51,7 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_displays(scenario)],
+            "Displays": [_grid(low, high, flat), *_displays(scenario), *_clouds(scenario)],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
@@ -122,6 +126,30 @@ _TOOLS = [
     {"Class": "rviz/FocusCamera"},
     {"Class": "rviz/Measure"},
 ]
+
+
+def _clouds(scenario):
+    """Data of live obstacles: all of them, and over them those that are not left out."""
+    for topic in dict.fromkeys(each.topic for each in scenario.obstacles if each.is_live):
+        yield _points("Seen on " + topic, topic, _LEFT_OUT, 2)
+        yield _points("Used of it", topic + "/used", _USED, 3)
+
+
+def _points(name, topic, color, size):
+    return {
+        "Class": "rviz/PointCloud2",
+        "Name": name,
+        "Enabled": True,
+        "Topic": topic,
+        "Color": color,
+        "Color Transformer": "FlatColor",
+        "Position Transformer": "XYZ",
+        "Style": "Points",  # drawn fast, by the ten thousand
+        "Size (Pixels)": size,
+        "Decay Time": 0,
+        "Queue Size": 2,
+        "Value": True,
+    }
 
 
 def _scene(scenario):

@@ -4,6 +4,7 @@ from typing import List
 
 from deformable_manipulation import _distance
 from deformable_manipulation.benchmarks.distance_cases import ball, fabric, hill, rope
+from deformable_manipulation.benchmarks.distance_new_cloud import measure_new_clouds
 from deformable_manipulation.benchmarks.distance_rivals import (
     FclMesh,
     ShapelyPolygon,
@@ -49,7 +50,13 @@ NOTES = (
 
 def measure_tables(request: Request) -> List[Table]:
     """Time this package and the libraries on the same objects and obstacles."""
-    return [_planar(request), *_meshes(request), _growth(request), *measure_seen(request)]
+    return [
+        _planar(request),
+        *_meshes(request),
+        _growth(request),
+        *measure_seen(request),
+        *measure_new_clouds(request),
+    ]
 
 
 def _planar(request: Request) -> Table:

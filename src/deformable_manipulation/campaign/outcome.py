@@ -96,15 +96,15 @@ def assess(
         problem=problem or "",
         min_distance=lowest,
         violations={
-            name: _below_zero(_of_assistants(series, f"h_{name}")) for name in series.barriers
+            name: _below_zero(_true_margins(scenario, series, name)) for name in series.barriers
         },
         deadlock=away and _is_free(scenario, distance),
         stuck=away,
         relaxed=int(np.count_nonzero(status == Status.RELAXED)),
         failed=int(np.count_nonzero(status == Status.FAILED)),
         oscillation=oscillation(distance, constrained, rate),
-        tracking_error=float(error[:, _undisturbed(constrained, rate)].max(initial=0.0)),
-        final_error=float(error[:, -1:].max(initial=0.0)),
+        tracking_error=_largest(error[:, _undisturbed(constrained, rate)]),
+        final_error=_largest(error[:, -1:]),
         constrained=float(constrained.mean()) if constrained.size else 0.0,
         shape_error=largest_stretch(series.column("stretch")) or 0.0,
     )
@@ -147,6 +147,11 @@ def _last_rows(scenario) -> int:
     return int(DEADLOCK_TIME * scenario.controller.rate)
 
 
+def _largest(errors: np.ndarray) -> float:
+    """Of errors [m]; nan: an assistant knew nothing of its state yet."""
+    return float(np.nanmax(errors, initial=0.0))
+
+
 def _stays_away(scenario, series, error) -> bool:
     """Whether an error stays above 5 cm for the last 3 s with the leader at rest."""
     last = _last_rows(scenario)
@@ -165,6 +170,13 @@ def _is_free(scenario, distance) -> bool:
     collision = scenario.controller.collision
     lowest = distance[-_last_rows(scenario) :].min()
     return bool(lowest > collision.offset + collision.band)
+
+
+def _true_margins(scenario, series: TimeSeries, barrier: str) -> np.ndarray:
+    """h [m] of a barrier: as the controllers know it, or of the true distance if they do not."""
+    if barrier == "collision" and not all(each.known and each.real for each in scenario.obstacles):
+        return series.column("distance") - scenario.controller.collision.offset
+    return _of_assistants(series, f"h_{barrier}")
 
 
 def _below_zero(margins: np.ndarray) -> float:

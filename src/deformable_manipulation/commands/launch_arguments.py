@@ -55,6 +55,7 @@ def add_launch_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="BOOL",
         help="true: at least one obstacle must have motion.topic",
     )
+    group.add_argument("--camera", metavar="BOOL", help="true: the scenario must have a camera")
     group.add_argument("--leader", metavar="NAME", help="name of the scenario's leader")
     group.add_argument(
         "--last-word",
@@ -74,6 +75,7 @@ def launch_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterat
     yield from _namespace_problems(arguments.namespace)
     yield from _cooperation_problems(arguments, scenario)
     yield from _drag_problems(arguments, scenario)
+    yield from _camera_problems(arguments, scenario)
     leader = scenario.agents[scenario.leader_index].name
     if arguments.leader not in (None, leader):
         yield Problem(
@@ -90,6 +92,7 @@ def _choice_problems(arguments: argparse.Namespace) -> Iterator[Problem]:
         ("one_process", arguments.one_process, (*_BOOLS, "none")),
         ("leader_input", arguments.leader_input, LEADER_INPUTS),
         ("drag_obstacles", arguments.drag_obstacles, _BOOLS),
+        ("camera", arguments.camera, _BOOLS),
     ):
         if given is not None and given.lower() not in allowed:
             yield Problem(name, "allowed: {} or {}".format(*allowed[:2]), f"'{given}'")
@@ -112,6 +115,13 @@ def _drag_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterato
             "no obstacle has motion.topic, so none can be dragged; set one, as in "
             "set:='obstacles.0.motion={topic: block}'",
             "'true'",
+        )
+
+
+def _camera_problems(arguments: argparse.Namespace, scenario: Scenario) -> Iterator[Problem]:
+    if arguments.camera == "true" and scenario.camera is None:
+        yield Problem(
+            "camera", "the scenario has no section camera, so none can be simulated", "'true'"
         )
 
 

@@ -10,6 +10,7 @@ from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, ObstaclePath
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.scenario.spec import PathMotion, Scenario
+from deformable_manipulation.seeing.seen_obstacles import SeenObstacles
 
 _STEP = 0.02  # s, between poses on a path: straight in between, it is exact to some micrometres
 _MOST_POSES = 20000  # of a path; a longer one is told less finely
@@ -27,14 +28,15 @@ class Forecast:
         triangles: of the object's points, or None: a polyline.
         has_shapes: whether the object's shapes can be found; otherwise they are told to first
             order.
-        knows_all: whether no obstacle's poses are measured.
+        knows_all: whether no obstacle's poses are measured, and none is live.
     """
 
     def __init__(self, scenario: Scenario):
         self._known = tuple(
             obstacle
             for obstacle in scenario.obstacles
-            if obstacle.motion is None or isinstance(obstacle.motion, PathMotion)
+            if obstacle.known
+            and (obstacle.motion is None or isinstance(obstacle.motion, PathMotion))
         )
         self._body = make_body(
             scenario.object, scenario.simulation.gravity, scenario.simulation.solver
@@ -45,10 +47,13 @@ class Forecast:
         ]
         self.has_shapes = self.make_shapes() is not None
         self._all = scenario.obstacles
-        self.knows_all = len(self._known) == len(scenario.obstacles)
+        self.knows_all = all(
+            not each.is_live and each in self._known for each in scenario.obstacles if each.known
+        )
         self.triangles = scenario.object.faces()
         self._margin = scenario.object.margin
         self._present: Optional[MinimumDistance] = None  # until it is needed
+        self._seen: Optional[SeenObstacles] = None  # likewise
         self._obstacles = MovingObstacles(dataclasses.replace(scenario, obstacles=self._known))
 
     def make_shapes(self):
@@ -56,8 +61,22 @@ class Forecast:
         return self._body.rest_shapes(self._holds)
 
     def standing(self):
-        """A new ``_distance.MinimumDistance`` from the obstacles that do not move."""
-        return self._distance_from([each for each in self._known if each.motion is None]).native
+        """A new ``_distance.MinimumDistance`` from the obstacles that do not move.
+
+        Live ones are what :meth:`show` got last.
+        """
+        standing = [each for each in self._known if each.motion is None]
+        distance = self._distance_from(standing)
+        places = {
+            index: standing.index(each) for index, each in enumerate(self._all) if each.is_live
+        }
+        self._seen = SeenObstacles(distance, places)
+        return distance.native
+
+    def show(self, seen) -> None:
+        """Look ahead to what is seen of live obstacles, by their indices."""
+        if self._seen is not None:
+            self._seen.show(seen)
 
     def moving(self):
         """New ``_control.ObstacleForecast`` of the obstacles on paths."""
@@ -84,7 +103,7 @@ class Forecast:
         return [
             _control.MeasuredObstacle(self._distance_from([each]).native, _place(each), index)
             for index, each in enumerate(moving)
-            if not isinstance(each.motion, PathMotion)
+            if each.known and not isinstance(each.motion, PathMotion)
         ]
 
     def _on_path(self, obstacle):

@@ -1,7 +1,8 @@
 """What an assistant's controller sees of one state."""
 
+import dataclasses
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Mapping, Optional
 
 import numpy as np
 
@@ -39,6 +40,8 @@ class Observation:
     # (A, 6, A, 6) d wrench / d held point, turn, of the object at rest; None: not known
     wrench_sensitivities: Optional[np.ndarray] = None
     obstacles: Optional[np.ndarray] = None  # (K, 7) poses of those that move: m, x, y, z, w
+    # What is seen of live obstacles, by their indices (seeing.live_map.Seen)
+    seen: Mapping[int, Any] = dataclasses.field(default_factory=dict)
     intent: Optional[Intent] = None  # where the leader will be; None: it announces nothing
     lateness: float = 0.0  # s, delay beyond one cycle until commands that answer it act
 

@@ -164,6 +164,7 @@ class TeamController:
             return self._last
         if self._forecast is not None:
             self._forecast.move(observation.time)
+            self._forecast.show(observation.seen)
         answer = self._native.update(observation)
         if answer is not None:
             computation_time = time.perf_counter() - started

@@ -74,6 +74,16 @@ class MinimumDistance:
         """
         self._obstacles[index].set_pose(*pose)
 
+    def replace(self, index, obstacle):
+        """Put another obstacle of the C++ core in the place of one.
+
+        Args:
+            index: of the obstacle.
+            obstacle: ``_distance.Obstacle``, at its pose; nobody else may use it.
+        """
+        self._native.replace(index, obstacle)
+        self._obstacles[index] = obstacle
+
     def compute(self, points):
         """Distances of C copies of the object.
 

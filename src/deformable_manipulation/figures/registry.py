@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Callable, Dict, Optional, Sequence, Tuple
 
 from deformable_manipulation.benchmarks.subject import SUBJECTS
-from deformable_manipulation.figures import announcements, campaigns, scenarios
+from deformable_manipulation.figures import announcements, campaigns, scenarios, seen
 from deformable_manipulation.figures.runs import Say
 
 README = "README.md"
@@ -95,6 +95,18 @@ SUBJECT_LIST: Sequence[Subject] = (
         "run_campaign rope_moving_obstacle --runs 200 --seed 1 --duration 40 [--set VALUE]",
         CAMPAIGNS,
         campaigns.measure_moving_obstacles,
+    ),
+    Subject(
+        {"seen_obstacles": SAFETY},
+        "run_scenario NAME [OPTIONS]",
+        CLOSED_LOOP,
+        seen.measure_seen_obstacles,
+    ),
+    Subject(
+        {"campaigns_seen": SAFETY},
+        "run_campaign rope_over_depth_camera --runs 20 --seed 1 --duration 60",
+        CAMPAIGNS,
+        seen.measure_seen_campaign,
     ),
     Subject(
         {"fast_leaders": SAFETY},

@@ -60,7 +60,7 @@ def read_field(path, is_free_unknown: bool) -> Field:
     fault = _fault(distances, origin, spacing)
     if fault:
         raise FieldError("{}: {}".format(path, fault))
-    return _filled(distances, origin, np.broadcast_to(spacing, 3), is_free_unknown)
+    return filled(distances, origin, np.broadcast_to(spacing, 3), is_free_unknown)
 
 
 def _fault(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray) -> str:
@@ -86,7 +86,8 @@ def _fault(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray) -> st
     return ""
 
 
-def _filled(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray, is_free: bool) -> Field:
+def filled(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray, is_free: bool) -> Field:
+    """A field with something in the place of what is unknown, see :func:`read_field`."""
     unknown = np.isnan(distances)
     if unknown.any():
         substitute = np.nanmax(distances) if is_free else -np.max(spacing)

@@ -10,8 +10,10 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Dots, Drawing
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -53,6 +55,8 @@ class CloudObstacle(ObstacleSpec):
         default=(0.0, 0.0, 0.0),
     )
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     def native(self) -> Tuple[Any, List[str]]:
         from deformable_manipulation import _distance

@@ -10,8 +10,10 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Dots, Drawing
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -43,6 +45,8 @@ class FieldObstacle(ObstacleSpec):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def endless(self) -> str:

@@ -5,6 +5,9 @@ from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 
 from deformable_manipulation.obstacles.cloud import CloudObstacle
 from deformable_manipulation.obstacles.field import FieldObstacle
+from deformable_manipulation.obstacles.live_cloud import LiveCloudObstacle
+from deformable_manipulation.obstacles.live_field import LiveFieldObstacle
+from deformable_manipulation.obstacles.live_voxels import LiveVoxelObstacle
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.polygon import POLYGON, read_polygon
 from deformable_manipulation.obstacles.primitives import (
@@ -58,10 +61,13 @@ KINDS: Dict[str, Kind] = {
             CloudObstacle,
             VoxelObstacle,
             FieldObstacle,
+            LiveCloudObstacle,
+            LiveVoxelObstacle,
+            LiveFieldObstacle,
         )
     },
 }
-COMMON_KEYS = ("name", "translation", "rotation", "motion")
+COMMON_KEYS = ("name", "translation", "rotation", "motion", "known", "real")
 
 
 def _own_keys(kind: str) -> List[str]:

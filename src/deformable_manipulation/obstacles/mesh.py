@@ -10,8 +10,10 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Drawing, Surface
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -51,6 +53,8 @@ class MeshObstacle(ObstacleSpec):
         default=(0.0, 0.0, 0.0),
     )
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     def problems(self) -> Iterator[str]:
         """See :class:`.ObstacleSpec`, like the others."""

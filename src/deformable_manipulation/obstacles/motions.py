@@ -1,18 +1,16 @@
 """The ``motion`` of an obstacle: where its pose comes from."""
 
-import re
 from dataclasses import dataclass
 from typing import Dict, Tuple, Union
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.reading.errors import show
-from deformable_manipulation.reading.names import FRAME
+from deformable_manipulation.reading.names import FRAME, TOPIC
 from deformable_manipulation.reading.parameter import Parameter, parameter
 from deformable_manipulation.reading.readers import (
     Node,
     Report,
     Section,
-    Text,
     UnitQuaternion,
     position,
     read_items,
@@ -41,10 +39,6 @@ class PoseWaypoint:
 
 
 POSE_WAYPOINT = Section(PoseWaypoint)
-_TOPIC = Text(
-    re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*"),
-    "a ROS topic: names of letters, digits and _ between /",
-)
 
 
 class _PoseWaypoints:
@@ -77,7 +71,7 @@ class TopicMotion:
     """An obstacle whose pose somebody publishes, as geometry_msgs/PoseStamped."""
 
     topic: str = parameter(
-        _TOPIC,
+        TOPIC,
         "Topic with the pose of the obstacle's frame in the fixed frame "
         "(`geometry_msgs/PoseStamped`), from a tracker or from a marker dragged in RViz, for "
         "example. Relative to the namespace of the run.",

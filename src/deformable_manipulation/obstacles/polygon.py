@@ -20,8 +20,10 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Drawing, Surface
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -101,6 +103,8 @@ class PolygonObstacle(ObstacleSpec):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def rings(self) -> Rings:
@@ -126,13 +130,13 @@ class PolygonObstacle(ObstacleSpec):
     def corners(self) -> np.ndarray:
         return self.embedded(np.concatenate([np.array(ring) for ring in self.rings]))
 
-    def drawing(self) -> Drawing:
-        """The piece within some width of its plane."""
+    def drawing(self, half_width: float = _HALF_WIDTH) -> Drawing:
+        """The piece within some distance [m] of its plane."""
         # Imported late: it needs Shapely, which only drawings need.
         from deformable_manipulation.geometry.prisms import prism
 
         axes = self.embedded(np.eye(2))
-        return Surface(prism(self.rings, axes, _HALF_WIDTH))
+        return Surface(prism(self.rings, axes, half_width))
 
     def description(self) -> str:
         return "polygon of {} points{}, plane {}".format(

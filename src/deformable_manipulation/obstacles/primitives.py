@@ -10,8 +10,10 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.obstacles.drawings import Drawing, box_surface, turned_surface
 from deformable_manipulation.obstacles.motions import Motion
 from deformable_manipulation.obstacles.spec import (
+    KNOWN,
     MOTION_OF_OBSTACLE,
     NAME,
+    REAL,
     ROTATION,
     TRANSLATION,
     ObstacleSpec,
@@ -35,11 +37,6 @@ class _Primitive(ObstacleSpec):
         """The section with its numbers."""
         return getattr(self, self.kind)
 
-    @property
-    @abstractmethod
-    def half_sides(self) -> np.ndarray:
-        """(3,) [m] of the box around it."""
-
     @abstractmethod
     def make(self, maker: Any) -> Any:
         """The C++ core's obstacle, made by its class PrimitiveObstacle."""
@@ -48,6 +45,15 @@ class _Primitive(ObstacleSpec):
         from deformable_manipulation import _distance
 
         return self.make(_distance.PrimitiveObstacle), []
+
+
+class _Bounded(_Primitive):
+    """Those that end somewhere, around their origin."""
+
+    @property
+    @abstractmethod
+    def half_sides(self) -> np.ndarray:
+        """(3,) [m] of the box around it."""
 
     def corners(self) -> np.ndarray:
         signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), axis=-1).reshape(-1, 3)
@@ -85,15 +91,13 @@ class HalfSpaceObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def endless(self) -> str:
         """See :class:`.ObstacleSpec`, like the others."""
         return "endless along and behind its plane"
-
-    @property
-    def half_sides(self) -> np.ndarray:
-        raise NotImplementedError("half-spaces are endless")
 
     def make(self, maker: Any) -> Any:
         return maker.half_space(self.half_space.normal)
@@ -129,7 +133,7 @@ class Sphere:
 
 
 @dataclass(frozen=True)
-class SphereObstacle(_Primitive):
+class SphereObstacle(_Bounded):
     """A ball around ``translation``."""
 
     kind: ClassVar[str] = "sphere"
@@ -138,10 +142,12 @@ class SphereObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def half_sides(self) -> np.ndarray:
-        """See :class:`_Primitive`, like the others."""
+        """See :class:`_Bounded`, like the others."""
         return np.full(3, self.sphere.radius)
 
     def make(self, maker: Any) -> Any:
@@ -165,7 +171,7 @@ class Box:
 
 
 @dataclass(frozen=True)
-class BoxObstacle(_Primitive):
+class BoxObstacle(_Bounded):
     """A box whose middle is at ``translation``."""
 
     kind: ClassVar[str] = "box"
@@ -174,10 +180,12 @@ class BoxObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def half_sides(self) -> np.ndarray:
-        """See :class:`_Primitive`, like the others."""
+        """See :class:`_Bounded`, like the others."""
         return 0.5 * np.array(self.box.size)
 
     def make(self, maker: Any) -> Any:
@@ -199,7 +207,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True)
-class CylinderObstacle(_Primitive):
+class CylinderObstacle(_Bounded):
     """A cylinder along its z axis, whose middle is at ``translation``."""
 
     kind: ClassVar[str] = "cylinder"
@@ -208,10 +216,12 @@ class CylinderObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def half_sides(self) -> np.ndarray:
-        """See :class:`_Primitive`, like the others."""
+        """See :class:`_Bounded`, like the others."""
         shape = self.cylinder
         return np.array((shape.radius, shape.radius, 0.5 * shape.length))
 
@@ -242,7 +252,7 @@ class Capsule:
 
 
 @dataclass(frozen=True)
-class CapsuleObstacle(_Primitive):
+class CapsuleObstacle(_Bounded):
     """A cylinder with round ends along its z axis, whose middle is at ``translation``."""
 
     kind: ClassVar[str] = "capsule"
@@ -251,10 +261,12 @@ class CapsuleObstacle(_Primitive):
     translation: Vector = TRANSLATION
     rotation: Quaternion = ROTATION
     motion: Optional[Motion] = MOTION_OF_OBSTACLE
+    known: bool = KNOWN
+    real: bool = REAL
 
     @property
     def half_sides(self) -> np.ndarray:
-        """See :class:`_Primitive`, like the others."""
+        """See :class:`_Bounded`, like the others."""
         shape = self.capsule
         return np.array((shape.radius, shape.radius, 0.5 * shape.length + shape.radius))
 

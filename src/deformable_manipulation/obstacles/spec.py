@@ -14,7 +14,7 @@ from deformable_manipulation.obstacles.motions import MOTION, Motion
 from deformable_manipulation.reading.names import ONE_LINE
 from deformable_manipulation.reading.parameter import declared, parameter
 from deformable_manipulation.reading.plain import plain
-from deformable_manipulation.reading.readers import UnitQuaternion, position
+from deformable_manipulation.reading.readers import Flag, UnitQuaternion, position
 
 _UNIT_TOLERANCE = 1e-6
 _Spec = TypeVar("_Spec", bound="ObstacleSpec")
@@ -34,6 +34,21 @@ MOTION_OF_OBSTACLE = parameter(
     default_text="none: it stands still",
 )
 
+KNOWN = parameter(
+    Flag(),
+    "Whether the controllers know it. `false`: it is really there, and the recorded distances are "
+    "from it, but the controllers learn of it from what a [camera](#camera) sees, if at all.",
+    default=True,
+)
+
+REAL = parameter(
+    Flag(),
+    "Whether it is really there. `false`: it is a map of other obstacles. The controllers keep "
+    "off it, but the recorded distances are not from it, and a camera does not see it.",
+    default=True,
+    allowed="`false` only where it is known",
+)
+
 
 class ObstacleSpec(ABC):
     """An obstacle of any kind, as checked data.
@@ -44,15 +59,19 @@ class ObstacleSpec(ABC):
         kind: the key that says its kind in the scenario.
         plane: the plane that it is given in, such as ``yz``; None: it is given in space.
         is_around_origin: whether its origin is where it is.
+        is_live: whether what there is of it comes while the run goes on; nothing is there before.
     """
 
     kind: ClassVar[str]
     plane: Optional[str] = None
     is_around_origin: ClassVar[bool] = False
+    is_live: ClassVar[bool] = False
     name: str
     translation: Vector
     rotation: Quaternion
     motion: Optional[Motion]
+    known: bool
+    real: bool
 
     @property
     def endless(self) -> str:
@@ -108,7 +127,10 @@ class ObstacleSpec(ABC):
         values = plain(self)
         mapping = {key: values[attribute] for key, (attribute, _) in declared(self).items()}
         if self.motion is None:
-            del mapping["motion"]
+            mapping.pop("motion", None)
+        for key in ("known", "real"):
+            if getattr(self, key):
+                mapping.pop(key, None)
         return mapping
 
 

@@ -27,6 +27,8 @@ def scene_bounds(scenario, points, agents):
     low, high = shown.min(axis=0), shown.max(axis=0)
     bounds = [low, high]
     for obstacle in scenario.obstacles:
+        if obstacle.is_live:
+            continue  # nobody knows yet where it is
         corners = obstacle_corners(obstacle)
         near_low = np.maximum(corners.min(axis=0), low - _NEAR)
         near_high = np.minimum(corners.max(axis=0), high + _NEAR)

@@ -10,3 +10,7 @@ ONE_LINE = Text(
     "a text on one line, without '/', of at most 100 characters",
 )
 FRAME = Text(re.compile(r"[A-Za-z][A-Za-z0-9_/]*"), "a tf frame: letters, digits, _ and / inside")
+TOPIC = Text(
+    re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*"),
+    "a ROS topic: names of letters, digits and _ between /",
+)

@@ -50,6 +50,12 @@ def agent_positions(state, scenario) -> np.ndarray:
     return positions[agent_order(state, scenario)]
 
 
+def agent_orientations(state, scenario) -> np.ndarray:
+    """Orientations (A, 4) of the held particles in the scenario's order. Raises MessageError."""
+    turns = _reshaped(state.agent_orientations, "agent_orientations", (len(state.agents), 4))
+    return turns[agent_order(state, scenario)]
+
+
 def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=None) -> Observation:
     """What a controller sees, from an ``ObjectState`` and the core's ``Distances`` of it.
 

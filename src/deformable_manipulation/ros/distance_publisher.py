@@ -8,12 +8,19 @@ import rospy
 from rospy.numpy_msg import numpy_msg
 
 from deformable_manipulation.cycles.health import input_report
-from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.distance.factory import make_known_distance
 from deformable_manipulation.distance.features import Distances as DistanceFeatures
 from deformable_manipulation.msg import Distances
 from deformable_manipulation.ros import node
-from deformable_manipulation.ros.conversions import MessageError, fill_distances, points_of
+from deformable_manipulation.ros.conversions import (
+    MessageError,
+    agent_orientations,
+    agent_positions,
+    fill_distances,
+    points_of,
+)
 from deformable_manipulation.ros.diagnostics import cycle_monitor, publish_diagnostics
+from deformable_manipulation.ros.live_obstacles import LiveObstacles
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.obstacle_frames import ObstacleFrames
 from deformable_manipulation.ros.obstacle_markers import distance_markers, obstacle_markers
@@ -28,17 +35,18 @@ class Computed(NamedTuple):
     poses: np.ndarray  # (K, 7) of the moving obstacles
     computation_time: float  # s
     fault: str  # why they are not known, as a clause; empty if they are
+    seen: dict  # what is known of live obstacles, by their indices
 
 
 def known_distances(computed):
-    """The core's Distances of what was computed, and the poses of the moving obstacles.
+    """What :meth:`.StateAnswers.answer` needs of what was computed.
 
     Raises:
         MessageError: they are not known.
     """
     if computed.fault:
         raise MessageError(computed.fault)
-    return computed.distances, computed.poses
+    return computed.distances, computed.poses, computed.seen
 
 
 class DistancePublisher:
@@ -54,7 +62,7 @@ class DistancePublisher:
     def __init__(self, scenario):
         prefix = rospy.get_param("~tf_prefix", "")
         try:
-            self._distance = make_minimum_distance(scenario)
+            self._distance = make_known_distance(scenario)
             obstacles = obstacle_markers(scenario.obstacles, scenario.frame, tf_prefix=prefix)
         except ValueError as error:  # a file has gone or changed since the scenario was checked
             node.refuse(f"The obstacles cannot be used: {error}")
@@ -62,6 +70,7 @@ class DistancePublisher:
             rospy.logwarn(warning)
         self._scenario = scenario
         self._obstacles = ObstacleTracker(scenario)
+        self._live = LiveObstacles(scenario, self._distance)
         self._frames = ObstacleFrames(scenario, prefix)
         self._latch = rospy.get_param("~lockstep", False)
         self._publisher = rospy.Publisher(
@@ -90,7 +99,12 @@ class DistancePublisher:
     def _compute(self, state):
         started = time.perf_counter()
         points = points_of(state)
-        self._fault = fault = self._obstacles.move(self._distance, state)
+        carried = agent_positions(state, self._scenario), agent_orientations(state, self._scenario)
+        faults = (
+            self._obstacles.move(self._distance, state),
+            self._live.move(state, points, carried),
+        )
+        self._fault = fault = ", ".join(filter(None, faults))
         try:
             if fault:
                 distances = DistanceFeatures.unknown(len(points), self._distance.names)
@@ -100,12 +114,12 @@ class DistancePublisher:
             raise MessageError(f"points: {error}") from error
         elapsed = time.perf_counter() - started
         self._cycles.answered(elapsed, age_of(state))
-        return Computed(distances, self._obstacles.poses(), elapsed, fault)
+        return Computed(distances, self._obstacles.poses(), elapsed, fault, self._live.seen())
 
     def publish(self, state, computed):
         """Publish and draw what :meth:`compute` gave for a state."""
         if self._latch or self._publisher.get_num_connections():
-            distances, poses, elapsed, fault = computed
+            distances, poses, elapsed, fault, _ = computed
             self._publisher.publish(
                 fill_distances(
                     Distances(), state, distances, elapsed, self._obstacles.names, poses, fault

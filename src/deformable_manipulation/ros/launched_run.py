@@ -19,6 +19,7 @@ def launch_command(scenario, directory, **options):
     defaults = {
         "assistants": " ".join(scenario.agents[index].name for index in scenario.assistants),
         "leader": scenario.agents[scenario.leader_index].name,
+        "camera": "true" if scenario.camera else "false",
         "stop_at_end": "false",
     }
     return _roslaunch("run.launch", scenario, directory, {**defaults, **options})

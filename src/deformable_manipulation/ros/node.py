@@ -73,14 +73,14 @@ def _require_numpy():
         )
 
 
-def subscribe(topic, message_class, callback, queue_size=1):
+def subscribe(topic, message_class, callback, queue_size=1, buffer_size=BUFFER_SIZE):
     """Subscribe to a topic without delay: to its newest message, or to more of them."""
     return rospy.Subscriber(
         topic,
         message_class,
         _until_shutdown(callback),
         queue_size=queue_size,
-        buff_size=BUFFER_SIZE,
+        buff_size=buffer_size,
         tcp_nodelay=True,
     )
 

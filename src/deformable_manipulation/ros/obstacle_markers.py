@@ -43,7 +43,7 @@ def obstacle_frame(obstacle, tf_prefix=""):
 
 
 def obstacle_markers(obstacles, frame, tf_prefix=""):
-    """A marker for each obstacle.
+    """A marker for each obstacle but live ones, whose data are shown as they come.
 
     Those that move are drawn in a frame of their own (:func:`obstacle_frame`), which RViz follows
     without another marker.
@@ -53,6 +53,8 @@ def obstacle_markers(obstacles, frame, tf_prefix=""):
     """
     markers = []
     for index, obstacle in enumerate(obstacles):
+        if obstacle.is_live:
+            continue
         marker = _marker(Header(frame_id=frame), "obstacles", index, Marker.TRIANGLE_LIST)
         if obstacle.motion is not None:
             marker.ns = MOVING_OBSTACLES

@@ -7,6 +7,7 @@ from deformable_manipulation.cycles.input_watch import find_age_fault
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, moving_obstacles
 from deformable_manipulation.motion.pose_track import PoseTrack
 from deformable_manipulation.ros import node
+from deformable_manipulation.ros.transforms import listening_buffer
 from deformable_manipulation.scenario.spec import FrameMotion, TopicMotion
 
 
@@ -30,7 +31,7 @@ class ObstacleTracker:
             if isinstance(motion, TopicMotion):
                 self._sources[index] = _TopicSource(scenario, index)
             elif isinstance(motion, FrameMotion):
-                buffer = buffer or _transforms()
+                buffer = buffer or listening_buffer()
                 self._sources[index] = _FrameSource(scenario, index, buffer)
 
     def move(self, distance, state):
@@ -129,15 +130,6 @@ class _FrameSource(_Source):
             self.track.hold(_numbers(pose.translation, "xyz"), _numbers(pose.rotation, "xyzw"))
         else:
             self._take(stamp, pose.translation, pose.rotation)
-
-
-def _transforms():
-    """A buffer of all transforms that come."""
-    import tf2_ros  # late: it takes time to load, and only obstacles in tf frames need it
-
-    buffer = tf2_ros.Buffer()
-    buffer.listener = tf2_ros.TransformListener(buffer)  # it listens as long as it lives
-    return buffer
 
 
 def _numbers(message, fields):

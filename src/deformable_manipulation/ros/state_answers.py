@@ -1,5 +1,6 @@
 """How the nodes with controllers answer states."""
 
+import dataclasses
 import time
 
 import rospy
@@ -44,16 +45,19 @@ class StateAnswers:
 
         Args:
             state: the ObjectState.
-            distances_of: function without arguments that gives the core's Distances of it and the
-                poses (K, 7) of the moving obstacles; may raise MessageError.
+            distances_of: function without arguments that gives the core's Distances of it, the
+                poses (K, 7) of the moving obstacles, and what is seen of live ones, by their
+                indices; may raise MessageError.
             intent: the leader's Intent, if it announces one.
         """
         started = self._answered_at = time.perf_counter()
         observation, fault = None, ""
         try:
-            distances, obstacles = distances_of()
+            distances, obstacles, seen = distances_of()
             age = self._age(state)
-            observation = to_observation(state, distances, self._scenario, age, intent, obstacles)
+            observation = dataclasses.replace(
+                to_observation(state, distances, self._scenario, age, intent, obstacles), seen=seen
+            )
         except MessageError as error:
             fault = f"cycle {state.cycle} cannot be used, {error}"
         decisions = self._decide(state, observation, fault)

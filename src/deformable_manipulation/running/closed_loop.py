@@ -7,13 +7,16 @@ from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.control.overload import has_load_limits, refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.distance.factory import make_known_distance, make_minimum_distance
 from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.running.announcer import Announcer
 from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
+from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.seeing.seen_obstacles import live_obstacles
+from deformable_manipulation.seeing.sight import Sight
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 from deformable_manipulation.simulation.stretch import StretchGauge
@@ -26,7 +29,8 @@ class ClosedLoop:
 
     In cycle k all controllers answer state k, the simulation advances to state k + 1 with the
     commands of cycle k - 1, and then takes the new ones. Obstacles move along the scenario's paths;
-    those whose poses come from a topic or from tf stay where the scenario puts them.
+    those whose poses come from a topic or from tf stay where the scenario puts them. The recorded
+    distance is that from all obstacles that are there, known to the controllers or not.
 
     Raises:
         _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
@@ -39,13 +43,15 @@ class ClosedLoop:
         # No gradients are needed without barriers; with imperfect knowledge the model has its own.
         copies = safety and perfect
         self._simulation = make_simulation(true_scenario(scenario), copies)
-        self._distance = make_minimum_distance(scenario)
+        self._sight = Sight(scenario) if live_obstacles(scenario) else None
+        self._truth = TrueDistance(scenario, self._simulation)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
         self._announcer = Announcer(scenario, self._leader)
         self._intent: Optional[Intent] = None  # as announced with the state before
         self._controllers = [TeamController(scenario, names, safety) for names in teams(scenario)]
-        self._observer = Observer(scenario, self._simulation, self._distance, perfect)
+        known = make_known_distance(scenario)
+        self._observer = Observer(scenario, self._simulation, known, perfect, self._sight)
         self._knowledge = None
         if not perfect:
             self._knowledge = ImperfectKnowledge(
@@ -68,7 +74,7 @@ class ClosedLoop:
 
     def distance(self) -> float:
         """Present signed distance [m] of the object from the obstacles; infinite without any."""
-        return float(self._observer.distances_of(self._simulation.points()[:1]).minimum[0])
+        return self._truth.of(self._simulation.points()[:1])
 
     def run(self, recorder=None, progress=None) -> None:
         """Run the scenario to its end.
@@ -101,6 +107,8 @@ class ClosedLoop:
         decided = time.perf_counter()
         velocities = simulation.velocities()
         points = observation.points[0].copy()
+        distance = self._truth.in_observation(observation)
+        self._observer.look()
 
         advancing = time.perf_counter()
         simulation.advance()
@@ -114,7 +122,7 @@ class ClosedLoop:
         return CycleRecord(
             cycle=observation.cycle,
             time=observation.time,
-            distance=float(observation.distances.minimum[0]),
+            distance=distance,
             stretch=self._stretch.measure(points),
             positions=observation.positions,
             velocities=velocities,
@@ -143,7 +151,8 @@ class ClosedLoop:
         """The decisions of all assistants by their names."""
         if self._knowledge is not None:
             return self._knowledge.decide(observation)
+        lost = self._sight.fault(observation.time) if self._sight else ""
         decisions = {}
         for controller in self._controllers:
-            decisions.update(controller.update(observation))
+            decisions.update(controller.wait(lost) if lost else controller.update(observation))
         return decisions

@@ -51,6 +51,9 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     facts.append("at the start the object reaches from {} to {} m".format(*_bounds(points[0])))
     warnings += filter(None, (simulation.rest_warning, simulation.softness))
     for obstacle in scenario.obstacles:
+        if obstacle.is_live:
+            warnings += _unseen_near_grips(scenario, obstacle)
+            continue
         corners = obstacle_corners(obstacle)
         facts.append(_extent_of(obstacle, corners))
         if not obstacle.endless:
@@ -125,6 +128,17 @@ def _start_too_near(scenario: Scenario, start: float) -> Iterator[str]:
             "the object starts {:.1f} mm from the obstacles, closer than "
             "controller.collision.offset, {:.1f} mm (negative: inside)".format(
                 1e3 * start, 1e3 * offset
+            )
+        )
+
+
+def _unseen_near_grips(scenario: Scenario, obstacle) -> Iterator[str]:
+    offset = scenario.controller.collision.offset
+    if obstacle.leave_out.grips >= offset > 0.0:
+        yield (
+            "obstacle {}: leave_out.grips is {:g} m. What is nearer to a held point is not seen, "
+            "although controller.collision.offset is {:g} m".format(
+                obstacle.name, obstacle.leave_out.grips, offset
             )
         )
 

@@ -16,6 +16,12 @@ from deformable_manipulation.reading.readers import (
 )
 from deformable_manipulation.scenario import checks, controller, simulation
 from deformable_manipulation.scenario.agents import read_agents
+from deformable_manipulation.scenario.camera import (
+    check_camera,
+    check_knowledge,
+    check_live_obstacles,
+    check_presence,
+)
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
 from deformable_manipulation.scenario.knowledge import check_delay
@@ -142,6 +148,10 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(check_delay, "controller", "knowledge")
+    check(check_camera, "frame", "controller", "camera")
+    check(check_live_obstacles, "obstacles", "controller")
+    check(check_presence, "obstacles")
+    check(check_knowledge, "obstacles", "knowledge")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")

@@ -11,12 +11,14 @@ from typing import Any, Dict, Iterable, List, Sequence, Tuple
 from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.obstacles.kinds import COMMON_KEYS
 from deformable_manipulation.obstacles.kinds import KINDS as OBSTACLE_KINDS
+from deformable_manipulation.obstacles.leave_out import LEAVE_OUT, OWN_SHAPE
 from deformable_manipulation.obstacles.motions import MOTION, POSE_WAYPOINT
 from deformable_manipulation.reading.parameter import Parameter
 from deformable_manipulation.reading.pose import POSE
 from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.camera import CAMERA
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HORIZON
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
@@ -68,6 +70,8 @@ def sections() -> Dict[str, Any]:
         "agents": AGENT,
         "obstacles": _Excerpt(OBSTACLE_KINDS["polygon"].section, COMMON_KEYS),
         **{"obstacles: " + name: _own_section(name) for name in OBSTACLE_KINDS},
+        "obstacles: leave_out": LEAVE_OUT,
+        "obstacles: leave_out.shapes": OWN_SHAPE,
         "obstacles: motion": MOTION,
         "obstacles: motion.waypoints": POSE_WAYPOINT,
         "leader": LEADER_PATH,
@@ -78,6 +82,7 @@ def sections() -> Dict[str, Any]:
         "controller.wrench_watch": WRENCH_WATCH,
         "simulation": SIMULATION,
         "knowledge": KNOWLEDGE,
+        "camera": CAMERA,
     }
 
 

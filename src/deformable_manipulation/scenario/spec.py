@@ -7,7 +7,7 @@ section's class is declared in a module of its own, with all that is to know of 
 """
 
 from dataclasses import dataclass
-from typing import Tuple
+from typing import Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.objects.fabric import FabricSpec
@@ -17,6 +17,8 @@ from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.obstacles.cloud import CloudObstacle
 from deformable_manipulation.obstacles.field import FieldObstacle
 from deformable_manipulation.obstacles.kinds import read_obstacles
+from deformable_manipulation.obstacles.live import LiveObstacle
+from deformable_manipulation.obstacles.live_cloud import LiveCloudObstacle
 from deformable_manipulation.obstacles.mesh import MeshObstacle
 from deformable_manipulation.obstacles.motions import (
     FrameMotion,
@@ -43,6 +45,7 @@ from deformable_manipulation.scenario.agents import ASSISTANT, LEADER, AgentSpec
 from deformable_manipulation.scenario.barriers.collision import CollisionSpec
 from deformable_manipulation.scenario.barriers.overstretch import OverstretchSpec
 from deformable_manipulation.scenario.barriers.proximity import ProximitySpec
+from deformable_manipulation.scenario.camera import CAMERA, CameraSpec
 from deformable_manipulation.scenario.controller import (
     CENTRALISED,
     COORDINATED,
@@ -68,6 +71,7 @@ __all__ = [
     "LEADER",
     "AgentSpec",
     "BoxObstacle",
+    "CameraSpec",
     "CapsuleObstacle",
     "CloudObstacle",
     "CollisionSpec",
@@ -80,6 +84,8 @@ __all__ = [
     "HalfSpaceObstacle",
     "KnowledgeSpec",
     "LeaderSpec",
+    "LiveCloudObstacle",
+    "LiveObstacle",
     "MeshObstacle",
     "Motion",
     "ObstacleSpec",
@@ -135,6 +141,12 @@ class Scenario:
         "What the controllers do not know exactly, in runs without ROS.",
         default=KnowledgeSpec(),
         default_text="all defaults",
+    )
+    camera: Optional[CameraSpec] = parameter(
+        CAMERA,
+        "A simulated depth camera, whose points are the data of [live obstacles](#live-obstacles).",
+        default=None,
+        default_text="none",
     )
     frame: str = parameter(
         FRAME,

@@ -6,6 +6,9 @@ from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.seeing.carried_state import CarriedState
+from deformable_manipulation.seeing.seen_obstacles import SeenObstacles, live_obstacles
+from deformable_manipulation.seeing.sight import Sight
 
 
 class Observer:
@@ -14,10 +17,18 @@ class Observer:
     Args:
         simulation: ``_pbd.Simulation``.
         distance: MinimumDistance or one like it.
+        sight: what the controllers see of live obstacles; None: there are none.
         copies: False looks at the object itself alone, without its response to its agents.
     """
 
-    def __init__(self, scenario: Scenario, simulation, distance, copies: bool = True):
+    def __init__(
+        self,
+        scenario: Scenario,
+        simulation,
+        distance,
+        copies: bool = True,
+        sight: Optional[Sight] = None,
+    ):
         self._simulation = simulation
         self._distance = distance
         self._exact = copies and scenario.controller.jacobian == "equilibrium"
@@ -25,6 +36,9 @@ class Observer:
         self._wrenches = scenario.controller.needs_wrenches
         self._points = simulation.points()  # reused
         self._obstacles = MovingObstacles(scenario)
+        self._sight = sight
+        if sight is not None:
+            self._seen = SeenObstacles(distance, {i: i for i in live_obstacles(scenario)})
 
     def observe(self, intent: Optional[Intent] = None) -> Observation:
         """The present state, with what the leader has announced.
@@ -33,6 +47,8 @@ class Observer:
         """
         simulation = self._simulation
         points = simulation.points(out=self._points)
+        if self._sight is not None:
+            self._seen.show(self._sight.seen())
         distances = self.distances_of(points)  # moves the obstacles
         sensitivities = self._sensitivities()
         known = sensitivities is not None
@@ -51,6 +67,7 @@ class Observer:
             orientations=simulation.orientations() if self._turns else None,
             turning_sensitivities=simulation.turning_response() if self._turns and known else None,
             obstacles=self._obstacles.poses(),
+            seen={} if self._sight is None else self._sight.seen(),
             intent=intent,
         )
 
@@ -58,6 +75,14 @@ class Observer:
         """The distances of copies' points (C, P, 3) [m] from the obstacles as they stand now."""
         self._obstacles.move(self._distance, self._simulation.time)
         return self._distance.compute(points)
+
+    def look(self) -> None:
+        """Let the camera see the present state."""
+        if self._sight is not None:
+            simulation = self._simulation
+            points, positions = self._points[0].copy(), simulation.positions()
+            carried = CarriedState(simulation.time, points, positions, simulation.orientations())
+            self._sight.look(simulation.cycle, carried)
 
     def obstacle_poses(self):
         """Where the moving obstacles were when last looked at, (K, 7)."""

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from deformable_manipulation.benchmarks import distance, distance_seen
+from deformable_manipulation.benchmarks import distance, distance_new_cloud, distance_seen
 from deformable_manipulation.benchmarks.subject import Request
 
 
@@ -17,6 +17,7 @@ def tables():
     patch.setattr(distance, "NUMBERS_OF_COPIES", (1, 13))
     patch.setattr(distance_seen, "QUICK_POINTS", (2000,))
     patch.setattr(distance_seen, "SPACING", 0.1)
+    patch.setattr(distance_new_cloud, "QUICK_POINTS", 2000)
     said = []
     made = distance.measure_tables(Request(True, Path("/nowhere"), said.append))
     patch.undo()
@@ -25,7 +26,8 @@ def tables():
 
 
 def test_every_table_has_rows_of_positive_times(tables):
-    assert set(tables) == {"planar", "meshes", "build", "growth", "seen", "seen_build"}
+    names = {"planar", "meshes", "build", "growth", "seen", "seen_build", "new_cloud"}
+    assert set(tables) == names
     for table in tables.values():
         assert table.rows
         for row in table.rows:
@@ -33,6 +35,12 @@ def test_every_table_has_rows_of_positive_times(tables):
             assert (
                 row.get("median_us", 1.0) >= row.get("minimum_us", 0.0) > 0.0 or "build_ms" in row
             )
+
+
+def test_a_cloud_that_was_made_ready_is_used_at_once(tables):
+    for row in tables["new_cloud"].rows:
+        steps = [value for key, value in row.items() if key.endswith("_ms")]
+        assert len(steps) == 7 and min(steps) > 0.0
 
 
 def test_all_kinds_of_obstacles_are_there(tables):

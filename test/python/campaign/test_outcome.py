@@ -1,5 +1,6 @@
 """What a campaign counts in a run, on tables whose content is known."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -9,6 +10,7 @@ from synthetic_run import make_record, make_scenario
 from deformable_manipulation.campaign.outcome import assess, oscillation
 from deformable_manipulation.campaign.runs import SeriesRecorder
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.obstacles.primitives import Sphere, SphereObstacle
 
 RATE = 100.0
 
@@ -67,6 +69,22 @@ class Run:
 @pytest.fixture
 def run(tmp_path):
     return Run(tmp_path)
+
+
+def test_the_true_distance_counts_where_the_controllers_do_not_know_the_obstacles(run):
+    offset = run.scenario.controller.collision.offset
+    run.set("distance", offset - 0.003, slice(10, 11))
+    assert run.assess().violations["collision"] == 0.0  # as they know it
+    hidden = SphereObstacle("ball", Sphere(0.1), known=False)
+    run.scenario = dataclasses.replace(run.scenario, obstacles=(hidden,))
+    assert run.assess().violations["collision"] == pytest.approx(0.003)
+
+
+def test_what_is_not_known_yet_is_no_error(run):
+    for name in run.series.assistants:
+        run.set(f"{name}.error_norm", math.nan, slice(1))
+    outcome = run.assess()
+    assert outcome.tracking_error == outcome.final_error == 0.0
 
 
 def test_a_run_in_which_nothing_happens(run):

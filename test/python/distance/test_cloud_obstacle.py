@@ -143,6 +143,20 @@ def test_a_moved_cloud():
     assert found.obstacle_velocity == pytest.approx(velocity, abs=1e-12)
 
 
+def test_several_clouds_are_as_one_of_all_points():
+    rng = np.random.default_rng(4)
+    line = np.linspace((-1.0, 0.0, 0.3), (1.0, 0.0, 0.3), 20)
+    parts = [scattered(rng, count) for count in (500, 1, 0, 300)]
+    clouds = [_distance.PointCloud(part) for part in parts]
+    minimum = _distance.MinimumDistance([_distance.CloudObstacle(clouds, RADIUS)], MARGIN, BAND)
+    one = calculator(np.concatenate(parts))
+    for step in range(5):
+        state = (line + (0.0, 0.0, 0.1 * step))[None]
+        found = mesh_reference.fields_of(minimum.compute(state))
+        expected = mesh_reference.fields_of(one.compute(state))
+        assert all(found[name] == pytest.approx(expected[name], abs=1e-5) for name in found)
+
+
 def test_a_new_cloud_takes_the_place_of_the_old_one():
     rng = np.random.default_rng(4)
     line = np.linspace((-1.0, 0.0, 0.3), (1.0, 0.0, 0.3), 20)
@@ -151,7 +165,8 @@ def test_a_new_cloud_takes_the_place_of_the_old_one():
     for count in (800, 1, 300):
         minimum.compute(line[None])
         points = scattered(rng, count)
-        obstacle.set_cloud(_distance.PointCloud(points))
+        fresh_cloud = _distance.PointCloud(points)
+        minimum.replace(0, _distance.CloudObstacle(fresh_cloud, RADIUS))
         found = mesh_reference.fields_of(minimum.compute(line[None]))
         fresh = mesh_reference.fields_of(calculator(points).compute(line[None]))
         assert all((found[name] == fresh[name]).all() for name in found)

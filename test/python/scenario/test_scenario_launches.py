@@ -51,7 +51,11 @@ def test_arguments_are_those_of_the_common_launch_file(name, launch, common):
     own, known = arguments(launch), arguments(common)
     assistants = [load_scenario(name).agents[i].name for i in load_scenario(name).assistants]
     assert own.pop("assistants")["default"] == " ".join(assistants)
-    for argument in own:
+    unused = {"camera"}
+    if load_scenario(name).camera is not None:
+        unused = set()
+        assert own["camera"] == {**known["camera"], "default": "true"}
+    for argument in set(own) - {"camera"}:
         assert own[argument] == known[argument]
     assert set(known) - set(own) == {
         "assistants",
@@ -60,6 +64,7 @@ def test_arguments_are_those_of_the_common_launch_file(name, launch, common):
         "required",
         "rviz_config",
         "scenario",
+        *unused,
     }
 
 
