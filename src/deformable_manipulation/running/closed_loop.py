@@ -11,11 +11,11 @@ from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.running.announcer import Announcer
-from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
+from deformable_manipulation.running.imperfect import ImperfectKnowledge
 from deformable_manipulation.scenario.spec import Scenario
-from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 from deformable_manipulation.simulation.stretch import StretchGauge
+from deformable_manipulation.worlds.factory import make_world, true_scenario
 
 _PROGRESS_REPORTS = 100
 
@@ -29,6 +29,7 @@ class ClosedLoop:
 
     Raises:
         _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
+        WorldError: the engine of ``knowledge.world`` is missing or has no such object.
     """
 
     def __init__(self, scenario: Scenario, safety: bool = True):
@@ -36,7 +37,8 @@ class ClosedLoop:
         perfect = scenario.knowledge.sees_object
         # No gradients are needed without barriers; with imperfect knowledge the model has its own.
         copies = safety and perfect
-        self._simulation = make_simulation(true_scenario(scenario), copies)
+        truth = true_scenario(scenario)
+        self._simulation = make_world(truth, copies)
         self._distance = make_minimum_distance(scenario)
         self._leader = LeaderController(scenario)
         self._leader_index = scenario.leader_index
@@ -49,7 +51,7 @@ class ClosedLoop:
             self._knowledge = ImperfectKnowledge(
                 scenario, self._controllers, make_minimum_distance(scenario)
             )
-        self._stretch = StretchGauge(scenario.object)
+        self._stretch = StretchGauge(truth.object)
 
     @property
     def rest(self) -> str:
@@ -115,6 +117,7 @@ class ClosedLoop:
             velocities=velocities,
             points=points,
             obstacles=self._observer.obstacle_poses(),
+            model=self._knowledge.model if self._knowledge is not None else None,
             decisions=decisions,
             timings=CycleTimings(
                 simulation=advanced - advancing,

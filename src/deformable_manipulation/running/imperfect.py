@@ -3,13 +3,14 @@
 import dataclasses
 import math
 from collections import deque
-from typing import Dict, Sequence
+from typing import Dict, Optional, Sequence
 
 import numpy as np
 
 from deformable_manipulation._control import PositionFilter
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.recording.timeseries import ModelRecord
 from deformable_manipulation.scenario.spec import KnowledgeSpec, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
@@ -89,10 +90,14 @@ class ImperfectKnowledge:
         scenario: the scenario as it is assumed to be; its ``knowledge`` says what is wrong.
         controllers: TeamControllers of all assistants.
         distance: MinimumDistance or one like it, for the model.
+
+    Attributes:
+        model: what the controllers saw of the object in the last state, None before the first.
     """
 
     def __init__(self, scenario: Scenario, controllers: Sequence, distance):
         knowledge = scenario.knowledge
+        self.model: Optional[ModelRecord] = None
         self._cycle_time = scenario.cycle_time
         self._model = make_simulation(scenario)
         self._observer = Observer(scenario, self._model, distance)
@@ -121,6 +126,7 @@ class ImperfectKnowledge:
         seen = dataclasses.replace(
             self._observer.observe(truth.intent), velocities=self._filter.velocity()
         )
+        self.model = ModelRecord(float(seen.distances.minimum[0]), seen.points[0].copy())
         decisions = {}
         for controller in self._controllers:
             decisions.update(controller.update(seen, truth))
@@ -154,10 +160,3 @@ class MeasuredPoses:
         if self._weight:  # held points move at constant velocity within a cycle
             measured = measured + self._weight * (self._states[1] - measured)
         return measured + self._noise * self._random.standard_normal(measured.shape)
-
-
-def true_scenario(scenario: Scenario) -> Scenario:
-    """The scenario with the object's true material in place of the assumed one."""
-    knowledge = scenario.knowledge
-    truth = scenario.object.with_factors(knowledge.stiffness_factor, knowledge.density_factor)
-    return dataclasses.replace(scenario, object=truth)

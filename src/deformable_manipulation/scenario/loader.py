@@ -14,11 +14,10 @@ from deformable_manipulation.reading.readers import (
     Section,
     Unreadable,
 )
-from deformable_manipulation.scenario import checks, controller, simulation
+from deformable_manipulation.scenario import checks, controller, knowledge, simulation
 from deformable_manipulation.scenario.agents import read_agents
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
-from deformable_manipulation.scenario.knowledge import check_delay
 from deformable_manipulation.scenario.spec import Scenario
 
 SCENARIO = Section(Scenario, defaults={"obstacles": ()})
@@ -125,6 +124,8 @@ def _fill_in(report: Report, parts: Dict[str, Any]) -> None:
         parts["simulation"] = simulation.for_object(report, parts["simulation"], parts["object"])
     if "controller" in parts:
         parts["controller"] = controller.for_object(parts["controller"], parts["object"])
+    if "knowledge" in parts:
+        parts["knowledge"] = knowledge.for_object(report, parts["knowledge"], parts["object"])
 
 
 def _check_together(report: Report, parts: Dict[str, Any]) -> None:
@@ -139,7 +140,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(controller.check_priority, "controller")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
-    check(check_delay, "controller", "knowledge")
+    check(knowledge.check_delay, "controller", "knowledge")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")
