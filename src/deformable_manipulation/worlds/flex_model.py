@@ -1,6 +1,6 @@
 """A fabric as MuJoCo's model: a flex of two dimensions, an elastic shell of finite elements."""
 
-from typing import Container, Sequence
+from typing import Container, Sequence, Union
 
 import numpy as np
 
@@ -38,7 +38,7 @@ _FREE = """
 def flex_xml(
     vertices: np.ndarray,
     triangles: np.ndarray,
-    masses: Sequence[float],
+    masses: Union[Sequence[float], np.ndarray],
     held: Container[int],
     compliances: Sequence[float],
     time_step: float,
