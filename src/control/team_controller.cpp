@@ -12,12 +12,6 @@ namespace control {
 
 namespace {
 
-// Part of the largest velocity by which another assistant's command may differ from what was expected of it. A state
-// that it did not get changes its command by less.
-constexpr double AGREEMENT = 0.1;
-
-constexpr double NEVER = -std::numeric_limits<double>::infinity();
-
 Team commanding(Team team, const std::vector<int>& members) {
   const std::vector<int> all = std::move(team.commanded);
   team.commanded.clear();
@@ -41,8 +35,8 @@ Status statusOf(const Filtered& result, const Decision& decision) {
 TeamController::TeamController(const ControllerParameters& p)
     : parameters_(p),
       velocities_(1e-4, p.timeout),
-      differences_(p.team.agents, p.team.leader),
-      disturbances_(p.disturbance_filter),
+      gradients_(p),
+      coordination_(static_cast<int>(p.team.commanded.size())),
       together_(p, p.team) {
   present_.positions.resize(p.team.agents);
   members_.resize(p.team.commanded.size());
@@ -102,7 +96,7 @@ void TeamController::setParameters(const ControllerParameters& given) {
   if (horizon_ != nullptr) {
     horizon_->setParameters(parameters_);
   }
-  disturbances_.setTimeConstant(parameters_.disturbance_filter);
+  gradients_.setParameters(parameters_);
   setSmoothing();
 }
 
@@ -127,77 +121,35 @@ void TeamController::reset() {
 
 void TeamController::forget() {
   velocities_.reset();
-  differences_.reset();
-  disturbances_.reset();
+  gradients_.reset();
+  coordination_.reset();
   if (horizon_ != nullptr) {
     horizon_->reset();
   }
-  stop();
-  for (Member& member : members_) {
-    member.heard = member.disagreed = NEVER;
-    member.told.reset();
+  for (TeamMember& member : members_) {
+    member.stop();
     if (member.detour) {
       member.detour->reset();
     }
   }
-  answered_ = false;
+  answered_.reset();
 }
 
 AssistantIntent TeamController::intent(int member) const {
-  const Member& m = members_[member];
-  return {time_, m.enabled && !waits_, hears_, together_now_, m.aim, m.command, m.acceleration, m.departure};
+  const TeamMember& m = members_[member];
+  return {
+      answered_.value_or(0.0), m.enabled && !waits_, coordination_.hears(), coordination_.together(), m.aim, m.command,
+      m.acceleration,          m.departure};
 }
 
 void TeamController::hear(int member, const AssistantIntent& intent) {
-  Member& other = members_[member];
-  if (!other.own && (!other.told || intent.time > other.told->time)) {
-    other.told = intent;
+  if (!members_[member].own) {
+    coordination_.hear(member, intent);
   }
-}
-
-//! Goes by what the others have told about the states before a new one.
-void TeamController::listen(double time) {
-  hears_ = together_now_ = true;
-  for (Member& member : members_) {
-    if (member.own) {
-      continue;
-    }
-    if (!answered_) {
-      member.heard = time;  // the others begin, too
-      member.hears = true;
-    }
-    if (member.told && member.told->time < time) {
-      learn(*member.told, time, member);
-      member.told.reset();
-    }
-    const double patience = trusting_ ? std::numeric_limits<double>::infinity() : parameters_.timeout;
-    hears_ = hears_ && time - member.heard <= patience && time - member.disagreed > parameters_.timeout;
-    together_now_ = together_now_ && hears_ && member.hears;
-  }
-}
-
-//! Continues from where another assistant says it is. What is late tells only what lasts.
-void TeamController::learn(const AssistantIntent& told, double time, Member& member) {
-  const bool current = !answered_ || told.time >= time_;
-  if (answered_ && told.time == time_ && told.coordinated && told.follows == member.enabled) {
-    const double difference = (told.command - member.command).cwiseAbs().maxCoeff();
-    if (difference > AGREEMENT * parameters_.max_velocity) {
-      member.disagreed = time;
-    }
-  }
-  if (current) {
-    member.command = told.command;
-    member.acceleration = told.acceleration;
-    member.departure = told.departure;
-  }
-  member.enabled = told.follows;
-  member.hears = told.hears;
-  member.reference = told.reference;
-  member.heard = std::max(member.heard, told.time);
 }
 
 void TeamController::takeReference(int member, const ObservationView& observation) {
-  Member& taking = members_[member];
+  TeamMember& taking = members_[member];
   taking.reference = observation.position(taking.agent) - observation.position(parameters_.team.leader);
   taking.aim = taking.reference;
   taking.departure.setZero();  // it was from another nominal velocity
@@ -207,10 +159,10 @@ void TeamController::takeReference(int member, const ObservationView& observatio
 }
 
 bool TeamController::isAnswered(double time) {
-  if (answered_ && time < time_ - parameters_.timeout) {
+  if (answered_ && time < *answered_ - parameters_.timeout) {
     forget();
   }
-  bool same = answered_ && time <= time_;
+  bool same = answered_ && time <= *answered_;
   for (const int i : parameters_.own) {
     same = same && decisions_[i].enabled == members_[i].enabled;
   }
@@ -221,52 +173,36 @@ const std::vector<Decision>& TeamController::wait() {
   waits_ = true;
   clearDecisions();
   for (int i = 0; i < size(); ++i) {
-    decisions_[i].command = slowed(members_[i]);
-    setCommand(decisions_[i].command, members_[i]);
+    decisions_[i].command = members_[i].slowed(motionLimits());
+    members_[i].setCommand(decisions_[i].command, parameters_.cycle_time);
     members_[i].departure.setZero();
   }
   return decisions_;
-}
-
-void TeamController::stop() {
-  for (Member& member : members_) {
-    member.command.setZero();
-    member.acceleration.setZero();
-    member.departure.setZero();
-  }
-}
-
-void TeamController::setCommand(const Vector3& command, Member& member) const {
-  member.acceleration = (command - member.command) / parameters_.cycle_time;
-  member.command = command;
 }
 
 void TeamController::clearDecisions() {
   for (int i = 0; i < size(); ++i) {
     decisions_[i].clear(static_cast<int>(parameters_.barriers.size()));
     decisions_[i].enabled = members_[i].enabled;
-    decisions_[i].coordinated = together_now_ && members_.size() == parameters_.team.assistants.size();
+    decisions_[i].coordinated = coordination_.together() && members_.size() == parameters_.team.assistants.size();
   }
 }
 
 const std::vector<Decision>& TeamController::update(const ObservationView& observation) {
   waits_ = false;
-  listen(observation.time);
-  if (!answered_ || observation.time > time_) {
-    time_ = observation.time;
-    answered_ = true;
-  }
+  coordination_.listen(observation.time, answered_, parameters_.timeout, parameters_.max_velocity, members_);
+  answered_ = std::max(answered_.value_or(observation.time), observation.time);
   const Eigen::Index size = 3 * observation.agents;
   velocities_.update(observation.time, Eigen::Map<const Eigen::VectorXd>(observation.positions, size));
-  differences_.update(observation);
+  gradients_.update(observation);
   predict(observation);
   findWays(observation);
   clearDecisions();
   describe(observation);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    decisions_[i].command = slowed(members_[i]);  // unless something else is decided
+    decisions_[i].command = members_[i].slowed(motionLimits());  // unless something else is decided
   }
-  if (std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.own && m.enabled; })) {
+  if (std::any_of(members_.begin(), members_.end(), [](const TeamMember& m) { return m.own && m.enabled; })) {
     decide(observation);
   }
   conclude();
@@ -280,7 +216,7 @@ void TeamController::conclude() {
       decision.status = Status::DISABLED;
       members_[i].departure.setZero();
     }
-    setCommand(decision.command, members_[i]);
+    members_[i].setCommand(decision.command, parameters_.cycle_time);
   }
 }
 
@@ -297,8 +233,8 @@ void TeamController::predict(const ObservationView& observation) {
     moved_[agent] = Eigen::Map<const Vector3>(velocities + 3 * agent);
     predicted_.velocities[agent] = moved_[agent];
   }
-  for (const Member& member : members_) {
-    if (member.own || together_now_) {
+  for (const TeamMember& member : members_) {
+    if (member.own || coordination_.together()) {
       predicted_.velocities[member.agent] = member.command;
     }
   }
@@ -310,7 +246,7 @@ void TeamController::predict(const ObservationView& observation) {
 //! Where the members go: to their places, or on a way around what holds them off.
 void TeamController::findWays(const ObservationView& observation) {
   const int leader = parameters_.team.leader;
-  for (Member& member : members_) {
+  for (TeamMember& member : members_) {
     member.aim = member.reference;
     if (member.detour && parameters_.safety) {
       const DetourSearch::Limits limits = [this, agent = member.agent](const PresentState& state) {
@@ -335,7 +271,7 @@ double TeamController::lowestMargin(const PresentState& state, int agent) const 
   return lowest;
 }
 
-Vector3 TeamController::nominal(const Member& member) const {
+Vector3 TeamController::nominal(const TeamMember& member) const {
   const Vector3 target = predicted_.positions[parameters_.team.leader] + member.aim;
   const Vector3 back = parameters_.gain * (target - predicted_.positions[member.agent]);
   return parameters_.team.formulation.leader_velocity ? Vector3(back + predicted_.leaderVelocity()) : back;
@@ -345,7 +281,7 @@ Vector3 TeamController::nominal(const Member& member) const {
 void TeamController::describe(const ObservationView& observation) {
   present_.distance = observation.distances->minimum[0];
   for (int i = 0; i < size(); ++i) {
-    const Member& member = members_[i];
+    const TeamMember& member = members_[i];
     Decision& decision = decisions_[i];
     decision.nominal = nominal(member);
     decision.detour = member.detour ? member.detour->state() : DetourState::NONE;
@@ -360,9 +296,9 @@ void TeamController::describe(const ObservationView& observation) {
 }
 
 void TeamController::decide(const ObservationView& observation) {
-  const bool usable = findGradients(observation);
-  disturbances_.update(observation.time, moved_, parameters_.team.formulation.obstacle_velocity, features_);
-  if (parameters_.safety && features_.size() > 0 && !usable) {
+  gradients_.find(observation, moved_);
+  const bool usable = gradientsAreKnown();
+  if (parameters_.safety && gradients_.features().size() > 0 && !usable) {
     return;
   }
   describeGradients();
@@ -375,29 +311,12 @@ void TeamController::decide(const ObservationView& observation) {
   }
 }
 
-//! The near features with their gradients; false if those of a commanded assistant are not known.
-bool TeamController::findGradients(const ObservationView& observation) {
-  const bool nearest_only = !parameters_.team.formulation.every_feature;
-  if (parameters_.exact_gradients && observation.sensitivities != nullptr) {
-    ChosenFeatures chosen{*observation.distances};
-    if (nearest_only) {
-      chosen.most = 1;
-    }
-    takeResponseGradients(chosen, {observation.sensitivities, observation.agents, observation.points},
-                          parameters_.team.leader, features_);
-    for (Decision& decision : decisions_) {
-      decision.exact_jacobian = true;
-    }
-    return true;
-  }
-  if (nearest_only) {
-    differences_.takeMinimum(*observation.distances, features_);
-  } else {
-    differences_.takeGradients(*observation.distances, features_);
-  }
+//! Whether those of all commanded assistants are known; the decisions tell whose are not.
+bool TeamController::gradientsAreKnown() {
   bool known = true;
   for (int i = 0; i < size(); ++i) {
-    decisions_[i].lacks_copies = !differences_.known(members_[i].agent);
+    decisions_[i].exact_jacobian = gradients_.exact();
+    decisions_[i].lacks_copies = !gradients_.known(members_[i].agent);
     known = known && !decisions_[i].lacks_copies;
   }
   return known;
@@ -405,10 +324,11 @@ bool TeamController::findGradients(const ObservationView& observation) {
 
 //! How the minimum distance changes with the motion of each commanded assistant and the leader.
 void TeamController::describeGradients() {
-  const bool any = features_.size() > 0;
-  const double drift = any ? features_.gradient(0, parameters_.team.leader).dot(predicted_.leaderVelocity()) : 0.0;
+  const Features& features = gradients_.features();
+  const bool any = features.size() > 0;
+  const double drift = any ? features.gradient(0, parameters_.team.leader).dot(predicted_.leaderVelocity()) : 0.0;
   for (int i = 0; i < size(); ++i) {
-    decisions_[i].jacobian = any ? features_.gradient(0, members_[i].agent) : Vector3::Zero();
+    decisions_[i].jacobian = any ? features.gradient(0, members_[i].agent) : Vector3::Zero();
     decisions_[i].leader_drift = drift;
   }
 }
@@ -420,28 +340,9 @@ MotionLimits TeamController::motionLimits() const {
           limited ? parameters_.max_jerk : NONE, parameters_.cycle_time};
 }
 
-//! The next command of an assistant on its way to rest.
-Vector3 TeamController::slowed(const Member& member) const {
-  const MotionLimits limits = motionLimits();
-  Vector3 command;
-  for (int axis = 0; axis < 3; ++axis) {
-    command[axis] = limits.slowed(member.command[axis], member.acceleration[axis]);
-  }
-  return command;
-}
-
-//! Velocities that the limits allow in the next cycle: for those who are disabled, the one on their way to rest.
 void TeamController::setBounds() {
-  const MotionLimits limits = motionLimits();
-  for (int i = 0; i < size(); ++i) {
-    Member& member = members_[i];
-    const Vector3& slower = decisions_[i].command;  // so far
-    for (int axis = 0; axis < 3; ++axis) {
-      const VelocityRange range = member.enabled ? limits.next(member.command[axis], member.acceleration[axis])
-                                                 : VelocityRange{slower[axis], slower[axis]};
-      member.lower[axis] = range.lower;
-      member.upper[axis] = range.upper;
-    }
+  for (TeamMember& member : members_) {
+    member.setBounds(motionLimits());
   }
 }
 
@@ -449,10 +350,12 @@ void TeamController::setBounds() {
 void TeamController::lookAhead(const ObservationView& observation) {
   const bool looks = parameters_.safety && horizon_ != nullptr;
   if (looks) {
-    for (const Member& member : members_) {
+    for (const TeamMember& member : members_) {
       followers_[member.agent].follows = member.enabled;
     }
-    tellResponse(observation);
+    if (forecast_->needsResponse()) {
+      forecast_->setResponse(present_.positions, gradients_.response(observation));
+    }
     horizon_->plan(observation, predicted_, followers_);
   }
   const double most = parameters_.max_velocity;
@@ -461,20 +364,6 @@ void TeamController::lookAhead(const ObservationView& observation) {
     members_[i].goal =
         !looks ? nominal : Vector3(nominal.cwiseMax(-most).cwiseMin(most) + horizon_->departure(members_[i].agent));
   }
-}
-
-//! Tells the forecast how the object follows its held points, if it has to be told.
-void TeamController::tellResponse(const ObservationView& observation) {
-  if (!forecast_->needsResponse()) {
-    return;
-  }
-  if (decisions_.front().exact_jacobian) {
-    response_.assign(observation.sensitivities,
-                     observation.sensitivities + 9 * observation.agents * observation.points);
-  } else {
-    differences_.takeResponse(response_);
-  }
-  forecast_->setResponse(present_.positions, response_);
 }
 
 void TeamController::passUnfiltered() {
@@ -491,7 +380,7 @@ void TeamController::passUnfiltered() {
 
 void TeamController::passFiltered() {
   decideBy(together_, all_);
-  if (!together_now_) {
+  if (!coordination_.together()) {
     decideBy(*alone_, parameters_.own);
   }
   for (int i = 0; i < size(); ++i) {
@@ -503,12 +392,12 @@ void TeamController::passFiltered() {
 void TeamController::decideBy(TeamProgram& program, const std::vector<int>& members) {
   for (std::size_t column = 0; column < members.size(); ++column) {
     const int i = members[column];
-    const Member& member = members_[i];
+    const TeamMember& member = members_[i];
     const Vector3 nominal = member.goal + kept_ * member.departure;
     program.want(static_cast<int>(column), member.enabled ? nominal : decisions_[i].command, member.lower,
                  member.upper);
   }
-  const Filtered& result = program.solve(features_, predicted_);
+  const Filtered& result = program.solve(gradients_.features(), predicted_);
   for (std::size_t column = 0; column < members.size(); ++column) {
     Decision& decision = decisions_[members[column]];
     decision.solve_time += program.solveTime();
@@ -523,7 +412,7 @@ void TeamController::decideBy(TeamProgram& program, const std::vector<int>& memb
 }
 
 //! What the rows make of the nominal velocity lasts, what the bounds alone make of it does not.
-void TeamController::keepDeparture(const Decision& decision, Member& member) const {
+void TeamController::keepDeparture(const Decision& decision, TeamMember& member) const {
   if (decision.status == Status::FAILED) {
     member.departure.setZero();
   } else if (member.rows_act) {

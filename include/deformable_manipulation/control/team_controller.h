@@ -7,14 +7,12 @@
 
 #include "deformable_manipulation/control/assistant_intent.h"
 #include "deformable_manipulation/control/controller_parameters.h"
+#include "deformable_manipulation/control/coordination.h"
 #include "deformable_manipulation/control/decision.h"
-#include "deformable_manipulation/control/detour.h"
-#include "deformable_manipulation/control/differences.h"
-#include "deformable_manipulation/control/disturbance_observer.h"
+#include "deformable_manipulation/control/gradients.h"
 #include "deformable_manipulation/control/horizon.h"
-#include "deformable_manipulation/control/motion_limits.h"
 #include "deformable_manipulation/control/observation.h"
-#include "deformable_manipulation/control/response_gradients.h"
+#include "deformable_manipulation/control/team_member.h"
 #include "deformable_manipulation/control/team_program.h"
 #include "deformable_manipulation/control/velocity_estimator.h"
 
@@ -51,7 +49,7 @@ class TeamController {
 
   //! Takes it that the others go on as expected, however long nothing is heard of them: for lock-step, where every
   //! controller answers every state.
-  void setTrusting(bool trusting) { trusting_ = trusting; }
+  void setTrusting(bool trusting) { coordination_.setTrusting(trusting); }
 
   //! Looks ahead with this forecast of the object, see Horizon; without one the present cycle is all that counts.
   void setForecast(std::shared_ptr<ObjectForecast> forecast);
@@ -104,75 +102,43 @@ class TeamController {
  private:
   void setSmoothing();
 
-  struct Member {
-    int agent = -1;                            // index
-    bool own = false;                          // false: another controller commands it
-    Vector3 reference = Vector3::Zero();       // [m]
-    Vector3 command = Vector3::Zero();         // [m/s] the last one, which acts until the next does
-    Vector3 acceleration = Vector3::Zero();    // [m/s^2] from the command before to it
-    Vector3 departure = Vector3::Zero();       // [m/s] of it from its goal, by the rows
-    Vector3 goal = Vector3::Zero();            // [m/s] the velocity that the filter is to come near to
-    Vector3 lower = Vector3::Zero();           // [m/s] that the limits of velocity and acceleration allow
-    Vector3 upper = Vector3::Zero();           // [m/s]
-    Vector3 aim = Vector3::Zero();             // [m] where it goes, relative to the leader: its reference or a detour
-    std::optional<Detour> detour = {};         // if it may take one
-    bool rows_act = false;                     // the bounds alone would allow another velocity
-    bool enabled = true;                       // it follows the leader
-    std::optional<AssistantIntent> told = {};  // and not yet used
-    bool hears = true;                         // it hears all others
-    double heard = 0.0;                        // [s] time of the newest state that it told about
-    double disagreed = 0.0;                    // [s] when it last did something else than expected
-  };
-
   void forget();
-  void listen(double time);
-  void learn(const AssistantIntent& told, double time, Member& member);
-  void stop();
   void clearDecisions();
   void predict(const ObservationView& observation);
   void findWays(const ObservationView& observation);
   double lowestMargin(const PresentState& state, int agent) const;
-  Vector3 nominal(const Member& member) const;
+  Vector3 nominal(const TeamMember& member) const;
   void describe(const ObservationView& observation);
   void decide(const ObservationView& observation);
-  bool findGradients(const ObservationView& observation);
+  bool gradientsAreKnown();
   void describeGradients();
   MotionLimits motionLimits() const;
-  Vector3 slowed(const Member& member) const;
   void setBounds();
   void lookAhead(const ObservationView& observation);
-  void tellResponse(const ObservationView& observation);
   void passUnfiltered();
   void passFiltered();
   void decideBy(TeamProgram& program, const std::vector<int>& members);
-  void keepDeparture(const Decision& decision, Member& member) const;
-  void setCommand(const Vector3& command, Member& member) const;
+  void keepDeparture(const Decision& decision, TeamMember& member) const;
   void conclude();
 
   ControllerParameters parameters_;
   VelocityEstimator velocities_;
-  Differences differences_;
-  DisturbanceObserver disturbances_;
+  Gradients gradients_;
+  Coordination coordination_;
   TeamProgram together_;                // of all members
   std::unique_ptr<TeamProgram> alone_;  // of the own ones; null: these are all
   std::shared_ptr<ObjectForecast> forecast_;
   std::unique_ptr<Horizon> horizon_;  // null: does not look ahead
 
-  std::vector<Member> members_;
+  std::vector<TeamMember> members_;
   std::vector<int> all_;             // their numbers
-  bool trusting_ = false;            // others are taken to go on as expected
-  bool hears_ = true;                // they go on as expected
-  bool together_now_ = true;         // and all hear one another
   bool waits_ = false;               // for an input
   std::vector<Follower> followers_;  // [A]
-  std::vector<double> response_;     // [A x P x 3 x 3]
   std::vector<Decision> decisions_;  // [M]
-  bool answered_ = false;
-  double time_ = 0.0;  // [s] of the newest state, if answered
+  std::optional<double> answered_;   // [s] time of the newest state
   PresentState present_;
   std::vector<Vector3> moved_;  // [A] m/s, measured velocities of the held points
   PredictedState predicted_;
-  Features features_;
   double kept_ = 0.0;  // part of a deviation that is kept for the next cycle
 };
 
