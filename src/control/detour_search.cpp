@@ -55,6 +55,11 @@ void DetourSearch::start(const ObservationView& observation, int agent, const Ve
   looks_ = 0;
   way_.clear();
   const double* points = observation.coordinates;
+  correction_.clear();
+  if (observation.correction != nullptr) {
+    correction_.assign(observation.correction,
+                       observation.correction + 3 * static_cast<std::ptrdiff_t>(observation.points));
+  }
   places_.assign(1, {held_[agent],
                      -1,
                      observation.distances->minimum[0],
@@ -159,7 +164,7 @@ void DetourSearch::findShapes(const Place& from, const std::vector<Vector3>& pos
     held[held.size() - held_.size() + agent_] = position;
   }
   shapes_->forget();
-  shapes_->setPresent(from.points.data());
+  shapes_->setPresent(from.points.data(), correction_.empty() ? nullptr : correction_.data());
   shapes_->find(held);
   found_.clear();
   std::vector<double> all;

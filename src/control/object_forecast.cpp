@@ -28,7 +28,7 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   }
   const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
   observe(observation);
-  shapes.setPresent(observation.coordinates);
+  shapes.setPresent(observation.coordinates, observation.correction);
   shapes.find(held);
   points_.resize(numbers * nodes);
   responses_.resize(3 * numbers * agents_ * nodes);

@@ -25,6 +25,7 @@ struct ObservationView {
   const double* positions = nullptr;      //!< [A x 3] m, held points
   const double* velocities = nullptr;     //!< [A x 3] m/s, of the held points; null: to be found from the positions
   const double* coordinates = nullptr;    //!< [C x P x 3] m, geometry points of each copy
+  const double* correction = nullptr;     //!< [P x 3] m, how measured points have moved those of the model; null: not
   const int* displaced_agents = nullptr;  //!< [C] whose held point is displaced; -1: none
   const double* displacements = nullptr;  //!< [C x 3] m, present displacement of that held point
   const bool* ready = nullptr;            //!< [C] false while a copy still moves to its displacement

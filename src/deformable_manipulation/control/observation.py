@@ -29,6 +29,8 @@ class Observation:
     velocities: Optional[np.ndarray] = None
     # (A, P, 3, 3) d point / d held point of the object at rest; None: not known
     sensitivities: Optional[np.ndarray] = None
+    # (P, 3) m, how measured points have moved those of the model; None: not
+    correction: Optional[np.ndarray] = None
     obstacles: Optional[np.ndarray] = None  # (K, 7) poses of those that move: m, x, y, z, w
     intent: Optional[Intent] = None  # where the leader will be; None: it announces nothing
     lateness: float = 0.0  # s, delay beyond one cycle until commands that answer it act

@@ -32,7 +32,8 @@ def summarise(
 
     ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
-    ``min_model_distance`` that of the model where the controllers see one,
+    ``min_model_distance`` that of the model where the controllers see one, with its largest
+    correction and the cycles in which it disagreed with what was measured,
     ``min_margin`` the lowest h of each barrier over the run, ``max_stretch`` the largest
     relative change of length anywhere in it; where that is more than
     what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
@@ -169,7 +170,12 @@ def _of_model(series: TimeSeries) -> dict:
     """What is told of a model of the object, if the controllers see one."""
     if not series.modelled:
         return {}
-    return {"min_model_distance": _lowest(series.column("model_distance"))}
+    correction, disagrees = series.column("correction"), series.column("disagrees")
+    return {
+        "min_model_distance": _lowest(series.column("model_distance")),
+        "max_correction": -(_lowest(-correction) or 0.0),
+        "disagreeing": int(np.count_nonzero(disagrees == 1.0)),
+    }
 
 
 def _error_statistics(error: np.ndarray) -> dict:

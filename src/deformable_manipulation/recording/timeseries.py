@@ -19,7 +19,8 @@ def vector_columns(name: str) -> Tuple[str, ...]:
 
 
 RUN_COLUMNS = ("cycle", "time", "distance", "stretch")
-MODEL_COLUMNS = ("model_distance",)  # of runs whose controllers see a model of the object
+# Of runs whose controllers see a model of the object.
+MODEL_COLUMNS = ("model_distance", "correction", "disagrees")
 AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
 # Kept beside the columns of the file: they describe the machine, not the run.
 TIMING_COLUMNS = ("simulation", "distance", "controller")
@@ -54,6 +55,8 @@ class ModelRecord(NamedTuple):
 
     distance: float  # m, signed minimum; inf: no obstacle
     points: np.ndarray  # (P, 3) m
+    correction: float = 0.0  # m, by which measured points have moved it, where that is largest
+    disagrees: bool = False  # whether it disagrees with them
 
 
 @dataclass(frozen=True)
@@ -136,7 +139,8 @@ class TimeSeries:
         # One list and one assignment: many small assignments to an array cost twice as much.
         row = [record.cycle, record.time, record.distance, record.stretch]
         if self.modelled:
-            row.append(math.nan if record.model is None else record.model.distance)
+            model = record.model
+            row += [model.distance, model.correction, model.disagrees] if model else 3 * [math.nan]
         for position, velocity in zip(record.positions.tolist(), record.velocities.tolist()):
             row += position
             row += velocity

@@ -8,6 +8,7 @@ from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
     Choice,
+    Flag,
     Integer,
     Node,
     Number,
@@ -81,6 +82,34 @@ class KnowledgeSpec:
         "Probability that a controller gets no new state in a cycle. It repeats its last command "
         "for at most `controller.timeout`.",
         default=0.0,
+    )
+    camera_rate: float = parameter(
+        Number("Hz", at_least=0.0, at_most=1000.0),
+        "How often a camera sees points of the object, which [correct](#correction) the model. 0: "
+        "there is none.",
+        default=0.0,
+    )
+    camera_points: int = parameter(
+        Integer(1, 10000), "Points in each picture, evenly along the object.", default=20
+    )
+    camera_noise: float = parameter(
+        Number("m", at_least=0.0, at_most=0.1),
+        "Standard deviation of every coordinate of such a point.",
+        default=0.0,
+    )
+    camera_delay: float = parameter(
+        Number("s", at_least=0.0, at_most=1.0), "Age of a picture when it arrives.", default=0.0
+    )
+    camera_hidden: float = parameter(
+        Number("1", at_least=0.0, at_most=1.0),
+        "Part of the object that is hidden: a piece that wanders along it.",
+        default=0.0,
+    )
+    camera_places: bool = parameter(
+        Flag(),
+        "Whether the camera knows where along the object a point is, as with markers. Otherwise "
+        "it is the nearest place of the model.",
+        default=True,
     )
     intent: str = parameter(
         Choice(HONEST, OPPOSITE, DELAYED, SCALED, RANDOM),

@@ -16,6 +16,7 @@ from deformable_manipulation.reading.readers import (
 )
 from deformable_manipulation.scenario import checks, controller, knowledge, simulation
 from deformable_manipulation.scenario.agents import read_agents
+from deformable_manipulation.scenario.correction import check_camera, check_correction
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
 from deformable_manipulation.scenario.spec import Scenario
@@ -141,6 +142,8 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(knowledge.check_delay, "controller", "knowledge")
+    check(check_correction, "object", "correction")
+    check(check_camera, "knowledge", "correction")
     check(checks.check_starts, "object", "agents")
     check(checks.check_workspace, "agents", "leader")
     check(checks.check_limits, "object", "agents", "controller")

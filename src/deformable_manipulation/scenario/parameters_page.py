@@ -17,6 +17,7 @@ from deformable_manipulation.reading.pose import POSE
 from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
+from deformable_manipulation.scenario.correction import CORRECTION
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HORIZON
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
@@ -75,6 +76,7 @@ def sections() -> Dict[str, Any]:
         "controller": CONTROLLER,
         "controller.horizon": HORIZON,
         "simulation": SIMULATION,
+        "correction": CORRECTION,
         "knowledge": KNOWLEDGE,
     }
 

@@ -42,6 +42,7 @@ class Observer:
             ready=simulation.ready(),
             distances=distances,
             sensitivities=self._sensitivities(),
+            correction=simulation.correction,
             obstacles=self._obstacles.poses(),
             intent=intent,
         )

@@ -45,6 +45,7 @@ class EngineWorld:
         self.rest = own.rest
         self.rest_warning = own.rest_warning
         self.softness = ""
+        self.correction = None
         self._settle()
 
     @property

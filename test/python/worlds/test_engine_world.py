@@ -9,6 +9,7 @@ import pytest
 
 from deformable_manipulation.campaign.variation import Ranges, vary
 from deformable_manipulation.commands import run_scenario
+from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.frame_reader import read_frames
 from deformable_manipulation.recording.run_reader import read_run
 from deformable_manipulation.running.closed_loop import ClosedLoop
@@ -152,3 +153,35 @@ def test_without_the_engine_it_is_said_how_to_get_it(monkeypatch, tmp_path, caps
     assert run_scenario.main([str(SHORT_ROPE), "--world", "mujoco", *options]) == 1
     assert "pip install" in capsys.readouterr().err
     assert not (tmp_path / "run").exists()
+
+
+def shape_error(**sets):
+    """Largest distance [m] between the model and the true rope's points after 3 s."""
+    loop = ClosedLoop(scenario("rope_one_assistant", **sets))
+    for _ in range(300):
+        record = loop.step()
+    return np.linalg.norm(record.points[::3] - record.model.points, axis=1).max()
+
+
+def test_a_camera_brings_the_model_to_the_true_rope():
+    camera = {
+        "correction": "{}",
+        "knowledge.camera_rate": 15,
+        "knowledge.camera_points": 60,
+        "knowledge.camera_noise": 0.003,
+        "knowledge.camera_delay": 0.1,
+        "knowledge.camera_hidden": 0.3,
+    }
+    assert shape_error() > 0.009
+    assert shape_error(**camera) < 0.008
+
+
+def test_assistants_stop_where_the_model_is_not_that_of_the_object():
+    sets = {"correction": "{limit: 0.002, stop: true}", "knowledge.camera_rate": 20}
+    loop = ClosedLoop(scenario(**sets))
+    records = [loop.step() for _ in range(200)]
+    assert not records[20].model.disagrees
+    assert records[-1].model.disagrees
+    for decision in records[-1].decisions.values():
+        assert decision.status == Status.WAITING
+        assert not decision.command.any()
