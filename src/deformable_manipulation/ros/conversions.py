@@ -81,6 +81,7 @@ def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=N
         distances=distances,
         velocities=_measured_velocities(state, order),
         sensitivities=_sensitivities(state, order),
+        correction=_correction(state),
         obstacles=obstacles,
         intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
@@ -98,6 +99,13 @@ def require_frame(name, message, scenario):
         raise MessageError(
             f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
         )
+
+
+def _correction(state):
+    """(P, 3) [m], or None. Raises MessageError."""
+    if not len(state.correction):
+        return None
+    return _reshaped(state.correction, "correction", (state.point_count, 3))
 
 
 def _measured_velocities(state, order):
