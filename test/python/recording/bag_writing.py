@@ -130,7 +130,7 @@ class BagWriter:
         )
         for name in (
             "agent_orientations agent_velocities agent_angular_velocities displacements "
-            "orientations velocities measured_velocities sensitivities"
+            "orientations velocities measured_velocities correction sensitivities"
         ).split():
             values[name] = np.zeros(0)
         message = self._message(OBJECT_STATE, cycle, reset_count, values)
