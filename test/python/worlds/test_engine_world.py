@@ -10,18 +10,22 @@ import pytest
 from deformable_manipulation.campaign.variation import Ranges, vary
 from deformable_manipulation.commands import run_scenario
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.recording.frame_reader import read_frames
 from deformable_manipulation.recording.run_reader import read_run
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.validation.fabric import rectangle
 from deformable_manipulation.validation.references.elastica import (
     Clamped,
     Pinned,
     solve_between,
 )
+from deformable_manipulation.worlds.engine import load_engine
 from deformable_manipulation.worlds.engine_world import EngineWorld
 from deformable_manipulation.worlds.errors import WorldError
 from deformable_manipulation.worlds.factory import make_world, true_scenario
+from deformable_manipulation.worlds.flex_model import flex_xml
 
 SHORT_ROPE = Path(__file__).resolve().parents[2] / "rostest" / "short_rope.yaml"
 SMALL_FABRIC = SHORT_ROPE.with_name("small_fabric.yaml")
@@ -93,6 +97,38 @@ def test_a_sheet_hangs_like_the_packages_own():
     size = np.ptp(own, axis=0).max()
     assert 0.0 < np.abs(own - other).max() < 0.06 * size
     assert abs(own[:, 2].min() - other[:, 2].min()) < 0.03 * size
+
+
+def test_a_sheet_stretches_as_theory_says():
+    """A strip that hangs grows by weight x length / (2 E t width)."""
+    mujoco = load_engine()
+    mesh = rectangle((0.2, 1.0), (3, 11), alternate=True)
+    spec = FabricSpec(
+        tuple(map(tuple, mesh.vertices)),
+        tuple(map(tuple, mesh.triangles)),
+        density=1.0,
+        thickness=0.01,
+        stretching_compliance=2e-3,
+        bending_compliance=1e3,
+    )
+    upper = range(30, 33)
+    xml = flex_xml(
+        mesh.vertices,
+        mesh.triangles,
+        spec.masses(),
+        upper,
+        (spec.stretching_compliance, spec.bending_compliance),
+        0.005,
+        "discrete",
+        (0.0, -1.0, 0.0),
+    )
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    for _ in range(800):
+        mujoco.mj_step(model, data)
+        data.qvel *= 0.95
+    grown = -data.qpos.reshape(-1, 3)[:3, 1].mean()
+    assert grown == pytest.approx(0.5 * 1.0 * 1.0 * 2e-3, rel=0.01)
 
 
 def test_controllers_run_in_that_world(tmp_path):
