@@ -10,7 +10,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kReportPeriod = 1.0;  // s
-constexpr double kSilent = 1.0;  // s, without measured points, before it is said
+constexpr double kSilent = 1.0;        // s, without measured points, before it is said
 
 }  // namespace
 
