@@ -12,7 +12,7 @@ void LinearShapes::setResponse(std::vector<Vector3> held, const std::vector<doub
   points_ = static_cast<int>(response.size() / (9 * held_.size()));
 }
 
-void LinearShapes::points(int shape, double* to) const {
+void LinearShapes::readPoints(int shape, double* to) const {
   using Derivative = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
   std::copy_n(present_, 3 * points_, to);
   const std::size_t agents = held_.size();

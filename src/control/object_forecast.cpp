@@ -28,7 +28,7 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
   }
   const std::size_t numbers = 3 * static_cast<std::size_t>(points_of_shape_);
   observe(observation);
-  shapes.setPresent(observation.coordinates);
+  shapes.setPresent(observation.coordinates, observation.correction);
   if (observation.orientations != nullptr) {  // grips turn, and are expected to keep them now
     shapes.setOrientations(orientationsOf(observation));
   }

@@ -37,8 +37,8 @@ std::string notFinite(const ObservationView& o) {
   const long coordinates = 3L * o.copies * o.points;
   for (const Field& field :
        {Field{"positions", o.positions, 3L * o.agents}, Field{"velocities", o.velocities, 3L * o.agents},
-        Field{"points", o.coordinates, coordinates}, Field{"displacements", o.displacements, 3L * o.copies},
-        Field{"obstacles", o.obstacle_poses, 7L * o.obstacles},
+        Field{"points", o.coordinates, coordinates}, Field{"correction", o.correction, 3L * o.points},
+        Field{"displacements", o.displacements, 3L * o.copies}, Field{"obstacles", o.obstacle_poses, 7L * o.obstacles},
         Field{"sensitivities", o.sensitivities, 9L * o.agents * o.points},
         Field{"turning_sensitivities", o.turning_sensitivities, 9L * o.agents * o.points},
         Field{"orientations", o.orientations, 4L * o.agents},

@@ -147,6 +147,14 @@ std::vector<MaterialParameter> Rod::dampings() const {
           {"torsion_retardation_time", parameters_.torsion_retardation_time}};
 }
 
+std::vector<double> Rod::arcLengths() const {
+  std::vector<double> arc_lengths;
+  for (int i = 0; i < pointCount(); ++i) {
+    arc_lengths.push_back(i * parameters_.segmentLength());
+  }
+  return arc_lengths;
+}
+
 double Rod::freeLength(int particle, int other) const {
   requireParticle(particle);
   requireParticle(other);

@@ -27,7 +27,7 @@ RodRestShapes::RodRestShapes(const Rod& rod, const std::vector<HeldPoint>& agent
   rod_->layOut();
 }
 
-void RodRestShapes::setPresent(const double* points) {
+void RodRestShapes::placePresent(const double* points) {
   present_.assign(points, points + 3 * pointCount());
   rod_->setShape(points);
 }
@@ -66,7 +66,7 @@ bool RodRestShapes::isFarFromPresent() const {
     return false;
   }
   std::vector<double> shape(present_.size());
-  points(0, shape.data());
+  readPoints(0, shape.data());
   double most = 0.0;
   for (std::size_t i = 0; i < rod_->holds().size(); ++i) {
     const Vector3 before = rod_->pose(rod_->holds()[i].particle).position;

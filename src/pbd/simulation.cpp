@@ -103,6 +103,58 @@ void Simulation::advance() {
     state.twist = state.command;
   }
   ++cycle_;
+  followCorrection();
+}
+
+void Simulation::correct(const CorrectionParameters& parameters) {
+  ParameterCheck check;
+  check.require(!body_->arcLengths().empty(), "correction", body_->kind(), "absent for such objects: only for rods");
+  check.throwIfAny();
+  correction_.emplace(parameters, body_->arcLengths(), heldArcLengths());
+  followCorrection();
+}
+
+std::string Simulation::measure(double time, const std::vector<MeasuredPoint>& points) {
+  if (!correction_) {
+    throw std::logic_error("nothing is corrected");
+  }
+  return correction_->measure(time, points);
+}
+
+void Simulation::points(double* to) const {
+  body_->points(to);
+  if (!correction_) {
+    return;
+  }
+  const std::vector<double>& field = correction_->field();
+  const Eigen::Map<const Eigen::ArrayXd> by(field.data(), static_cast<Eigen::Index>(field.size()));
+  for (int copy = 0; copy < body_->copyCount(); ++copy, to += field.size()) {
+    Eigen::Map<Eigen::ArrayXd>(to, by.size()) += by;
+  }
+}
+
+std::vector<double> Simulation::heldArcLengths() const {
+  const std::vector<double> arc_lengths = body_->arcLengths();
+  std::vector<double> held;
+  for (const HeldPoint& point : body_->holds()) {
+    held.push_back(0.5 * (arc_lengths[point.particle] + arc_lengths[point.particle + 1]));
+  }
+  return held;
+}
+
+void Simulation::restartCorrection() {
+  if (correction_) {
+    correction_->setHolds(heldArcLengths());
+    followCorrection();
+  }
+}
+
+void Simulation::followCorrection() {
+  if (correction_) {
+    model_points_.resize(3 * static_cast<std::size_t>(body_->pointCount()) * body_->copyCount());
+    body_->points(model_points_.data());
+    correction_->advance(time(), model_points_.data());
+  }
 }
 
 void Simulation::reset() {
@@ -115,6 +167,7 @@ void Simulation::reset() {
   }
   cycle_ = 0;
   ++reset_count_;
+  restartCorrection();
 }
 
 int Simulation::addPerturbation(const Perturbation& perturbation) {
@@ -182,6 +235,7 @@ void Simulation::release(int agent) {
   }
   body_->release(released.particle);
   released.particle = -1;
+  restartCorrection();
 }
 
 void Simulation::hold(int agent, int particle, Hold type) {
@@ -202,6 +256,7 @@ void Simulation::hold(int agent, int particle, Hold type) {
   for (const Vector3& displacement : holder.displacements) {
     body_->addCopy(particle, displacement);
   }
+  restartCorrection();
 }
 
 void Simulation::setMaterial(const std::vector<MaterialParameter>& parameters) {

@@ -94,6 +94,9 @@ void ObservationReader::readState(const py::handle& observation, int agents) {
     view_.obstacles = static_cast<int>(arrayOf(observation, "obstacles", "obstacles", "fiu").shape(0));
     view_.obstacle_poses = numbers(observation, "obstacles", "obstacles", {view_.obstacles, 7});
   }
+  if (!observation.attr("correction").is_none()) {
+    view_.correction = numbers(observation, "correction", "correction", {view_.points, 3});
+  }
   if (!observation.attr("sensitivities").is_none()) {
     view_.sensitivities = numbers(observation, "sensitivities", "sensitivities", {agents, view_.points, 3, 3});
   }

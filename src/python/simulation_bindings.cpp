@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -7,6 +8,7 @@
 
 #include "bindings.h"
 #include "deformable_manipulation/pbd/simulation.h"
+#include "parameter_value_from_python.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -41,6 +43,43 @@ std::unique_ptr<Simulation> makeSimulation(const Body& body, const py::list& age
   py::gil_scoped_release release;
   return std::make_unique<Simulation>(std::move(own), std::move(converted), displaced,
                                       Clock{time_step, substeps, steps_per_cycle});
+}
+
+void correct(Simulation& simulation, const py::dict& parameters) {
+  const ParameterValue value = toParameterValue(parameters);
+  ParameterCheck check;
+  const CorrectionParameters read = CorrectionParameters::read({value, "correction", check});
+  check.throwIfAny();
+  simulation.correct(read);
+}
+
+std::string measure(Simulation& simulation, double time, const Array& points, const py::object& places) {
+  if (points.ndim() != 2 || points.shape(1) != 3) {
+    throw py::value_error("points must have the shape (K, 3)");
+  }
+  std::vector<MeasuredPoint> seen;
+  Array along;
+  if (!places.is_none()) {
+    along = places.cast<Array>();
+    if (along.ndim() != 1 || along.shape(0) != points.shape(0)) {
+      throw py::value_error("places must have the shape (K,)");
+    }
+  }
+  for (py::ssize_t i = 0; i < points.shape(0); ++i) {
+    const double place = places.is_none() ? std::numeric_limits<double>::quiet_NaN() : along.at(i);
+    seen.push_back({Vector3(points.at(i, 0), points.at(i, 1), points.at(i, 2)), place});
+  }
+  return simulation.measure(time, seen);
+}
+
+py::object correctionOf(const Simulation& simulation) {
+  if (simulation.correction() == nullptr) {
+    return py::none();
+  }
+  const std::vector<double>& field = simulation.correction()->field();
+  Array array({static_cast<int>(field.size() / 3), 3});
+  std::copy(field.begin(), field.end(), array.mutable_data());
+  return array;
 }
 
 }  // namespace
@@ -119,8 +158,24 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly("time", &Simulation::time, "Seconds since the start.")
       .def(
           "points",
-          [](const Simulation& simulation, const py::object& out) { return pointsOf(simulation.body(), out); },
-          py::arg("out") = py::none(), "Geometry points (C, P, 3) [m]; see Body.points.")
+          [](const Simulation& simulation, const py::object& out) {
+            Array array = filled(out, {simulation.body().copyCount(), simulation.body().pointCount(), 3});
+            simulation.points(array.mutable_data());
+            return array;
+          },
+          py::arg("out") = py::none(), "Geometry points (C, P, 3) [m], corrected; see Body.points.")
+      .def("correct", &correct, py::arg("parameters"),
+           "From now on measured points correct where a rod is. parameters (dict): the section `correction` of a\n"
+           "scenario. Raises ParameterError.")
+      .def("measure", &measure, py::arg("time"), py::arg("points"), py::arg("places") = py::none(),
+           "Takes over points (K, 3) [m] of the object, seen at a time [s] since the start. places (K,) [m]: how far\n"
+           "along the object from its first end, nan where that is not known. Returns why they are not used, or an\n"
+           "empty text.")
+      .def_property_readonly("correction", &correctionOf,
+                             "How far (P, 3) [m] measured points have moved those of the model, or None.")
+      .def_property_readonly(
+          "disagrees", [](const Simulation& s) { return s.correction() != nullptr && s.correction()->disagrees(); },
+          "Whether the model and what was measured have disagreed for some time.")
       .def(
           "positions", [](const Simulation& s) { return perAgent(s, 3, [&](int i) { return s.pose(i).position; }); },
           "Held points (A, 3) [m].")

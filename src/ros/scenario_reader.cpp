@@ -77,6 +77,9 @@ SimulatorScenario readScenario(const XmlRpc::XmlRpcValue& value) {
   scenario.pose_smoothing = controller.number("pose_smoothing");
   const double rate = controller.number("rate");
   scenario.clock.steps_per_cycle = static_cast<int>(std::lround(1.0 / (rate * scenario.clock.time_step)));
+  if (root.has("correction")) {
+    scenario.correction = pbd::CorrectionParameters::read(root.section("correction"));
+  }
   check.throwIfAny();
   return scenario;
 }

@@ -3,11 +3,13 @@
 #include <XmlRpcValue.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "agent_link.h"
 #include "deformable_manipulation/parameters/parameter_value.h"
+#include "deformable_manipulation/pbd/shape_correction.h"
 #include "deformable_manipulation/pbd/simulation.h"
 
 namespace deformable_manipulation {
@@ -19,13 +21,14 @@ struct SimulatorScenario {
   ParameterValue object;  // the sections of these names, for what is made of them
   ParameterValue simulation;
   std::vector<pbd::Agent> agents;
-  std::vector<bool> is_assistant;   // one per agent
-  std::vector<DrivenBy> driven_by;  // one per agent
-  pbd::Vector3 perturbation;        // [m] displacement of the assistants' copies per axis
-  bool central;                     // copies on both sides
-  bool exact_response;              // the controllers want the exact response of the object
-  bool turns;                       // grips turn
-  bool wrenches;                    // and what it exerts on the agents
+  std::vector<bool> is_assistant;                       // one per agent
+  std::vector<DrivenBy> driven_by;                      // one per agent
+  pbd::Vector3 perturbation;                            // [m] displacement of the assistants' copies per axis
+  bool central;                                         // copies on both sides
+  bool exact_response;                                  // the controllers want the exact response of the object
+  bool turns;                                           // grips turn
+  bool wrenches;                                        // and what it exerts on the agents
+  std::optional<pbd::CorrectionParameters> correction;  // of the object by measured points
   pbd::Clock clock;
   double duration;         // s
   double command_timeout;  // s

@@ -36,6 +36,7 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
       options_(options),
       simulation_(makeBody(scenario), scenario.agents, perturbationsOf(scenario, scenario.perturbation),
                   scenario.clock),
+      measured_points_(scenario.frame),
       object_services_(node_, simulation_),
       live_perturbation_(scenario_, simulation_),
       control_(node_),
@@ -60,6 +61,12 @@ Simulator::Simulator(const SimulatorScenario& scenario, const SimulatorOptions& 
           ros::TransportHints().tcpNoDelay());
     }
   }
+  if (scenario_.correction) {
+    simulation_.correct(*scenario_.correction);
+    diagnostics_.watchCorrection();
+    points_subscriber_ = node_.subscribe<sensor_msgs::PointCloud2>(
+        "measured_points", 1, [this](const sensor_msgs::PointCloud2ConstPtr& message) { receivePoints(*message); });
+  }
   links_.reserve(scenario_.agents.size());  // they are subscribed with their addresses
   for (std::size_t i = 0; i < scenario_.agents.size(); ++i) {
     const DrivenBy driven_by = options_.follow_poses ? DrivenBy::POSE : scenario_.driven_by[i];
@@ -81,6 +88,7 @@ void Simulator::run() {
     }
     control_.countCycle();
     const SteadyClock::time_point started = SteadyClock::now();
+    noteTime();
     const bool published = agentsAreTrue();
     if (published) {
       publish();
@@ -122,6 +130,10 @@ bool Simulator::agentsAreTrue() {
       waiting_for.data += (waiting_for.data.empty() ? "" : " and ") + links_[i].awaited();
     }
   }
+  if (simulation_.correction() != nullptr && simulation_.correction()->stops()) {
+    waiting_for.data += waiting_for.data.empty() ? "" : " and ";
+    waiting_for.data += "measured points that agree with the model of the object";
+  }
   if (waiting_for.data != waiting_for_.data) {
     waiting_for_ = waiting_for;
     waiting_publisher_.publish(waiting_for_);
@@ -129,9 +141,24 @@ bool Simulator::agentsAreTrue() {
   return waiting_for.data.empty();
 }
 
+void Simulator::noteTime() {
+  stamp_ = options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime()) : ros::Time::now();
+  time_ = simulation_.time();
+}
+
+//! What was seen belongs to the model's state of then, however late it comes.
+void Simulator::receivePoints(const sensor_msgs::PointCloud2& message) {
+  std::string why = measured_points_.read(message);
+  if (why.empty()) {
+    why = simulation_.measure(time_ + (message.header.stamp - stamp_).toSec(), measured_points_.points());
+  }
+  if (!why.empty()) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Measured points are not used: " << why << ".");
+  }
+}
+
 void Simulator::publish() {
-  const ros::Time stamp =
-      options_.lockstep ? ros::Time(kStartOfTime + published_ * scenario_.clock.cycleTime()) : ros::Time::now();
+  const ros::Time stamp = stamp_;
   if (stamp < state_.header.stamp) {
     ROS_WARN("The clock was set back by %.3f s; commands are accepted from now on.",
              (state_.header.stamp - stamp).toSec());

@@ -14,6 +14,7 @@
 #include "deformable_manipulation/ObjectState.h"
 #include "deformable_manipulation/pbd/simulation.h"
 #include "live_perturbation.h"
+#include "measured_points_inbox.h"
 #include "object_services.h"
 #include "run_control.h"
 #include "scenario_reader.h"
@@ -49,6 +50,8 @@ class Simulator {
   using SteadyClock = std::chrono::steady_clock;
 
   void waitForSubscribers(const ros::Publisher& publisher, int wanted);
+  void noteTime();
+  void receivePoints(const sensor_msgs::PointCloud2& message);
   void publish();
   void publishPositions();
   void addMeasuredVelocities();
@@ -68,8 +71,9 @@ class Simulator {
   pbd::Simulation simulation_;
   ros::NodeHandle node_;
   ros::Publisher state_publisher_, positions_publisher_, clock_publisher_, waiting_publisher_;
-  ros::Subscriber recorder_subscriber_;
+  ros::Subscriber recorder_subscriber_, points_subscriber_;
   std::vector<AgentLink> links_;  // one per agent
+  MeasuredPointsInbox measured_points_;
   ObjectServices object_services_;
   LivePerturbation live_perturbation_;
   RunControl control_;
@@ -81,6 +85,8 @@ class Simulator {
   AgentPositions positions_;
   long published_ = 0;  // states since the start, over all resets
   long overruns_ = 0;
+  ros::Time stamp_;     // of the state at time_
+  double time_ = 0.0;   // s, of the simulation, with that stamp
   ros::Time recorded_;  // stamp up to which everything is
   SteadyClock::time_point next_tick_;
 };

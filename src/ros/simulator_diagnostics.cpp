@@ -9,7 +9,8 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kPeriod = 1.0;  // s
+constexpr double kReportPeriod = 1.0;  // s
+constexpr double kSilent = 1.0;        // s, without measured points, before it is said
 
 }  // namespace
 
@@ -21,7 +22,11 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle& node, const pbd::Sim
   updater_.add("loop", this, &SimulatorDiagnostics::reportLoop);
   updater_.add("object", this, &SimulatorDiagnostics::reportObject);
   updater_.add("agents", this, &SimulatorDiagnostics::reportAgents);
-  timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod), &SimulatorDiagnostics::report, this);
+  timer_ = node.createSteadyTimer(ros::WallDuration(kReportPeriod), &SimulatorDiagnostics::report, this);
+}
+
+void SimulatorDiagnostics::watchCorrection() {
+  updater_.add("correction", this, &SimulatorDiagnostics::reportCorrection);
 }
 
 void SimulatorDiagnostics::countCycle(double busy) {
@@ -91,6 +96,21 @@ void SimulatorDiagnostics::reportObject(Status& status) {
     status.summary(DiagnosticStatus::WARN, pbd::describe(simulation_.rest()));
   } else {
     status.summary(DiagnosticStatus::OK, "Solved within its tolerance.");
+  }
+}
+
+void SimulatorDiagnostics::reportCorrection(Status& status) {
+  const pbd::ShapeCorrection& correction = *simulation_.correction();
+  status.addf("largest correction [mm]", "%.1f", 1e3 * correction.largest());
+  status.addf("age of the measured points [s]", "%.2f", correction.age());
+  if (correction.disagrees()) {
+    status.summary(DiagnosticStatus::ERROR, correction.stops()
+                                                ? "The model disagrees with the measured points: the assistants stop."
+                                                : "The model disagrees with the measured points.");
+  } else if (!(correction.age() < kSilent)) {
+    status.summary(DiagnosticStatus::WARN, "There are no measured points: the correction fades.");
+  } else {
+    status.summary(DiagnosticStatus::OK, "Measured points correct the model.");
   }
 }
 

@@ -18,6 +18,9 @@ class SimulatorDiagnostics {
   SimulatorDiagnostics(ros::NodeHandle& node, const pbd::Simulation& simulation, const std::vector<AgentLink>& links,
                        const RunControl& control, bool lockstep);
 
+  //! From now on the correction of the object is reported, too.
+  void watchCorrection();
+
   //! A cycle's work is done. @param busy [s] that it took
   void countCycle(double busy);
 
@@ -45,6 +48,7 @@ class SimulatorDiagnostics {
   void report(const ros::SteadyTimerEvent& event);
   void reportLoop(Status& status);
   void reportObject(Status& status);
+  void reportCorrection(Status& status);
   void reportAgents(Status& status);
 
   const pbd::Simulation& simulation_;

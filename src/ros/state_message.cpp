@@ -65,7 +65,11 @@ void fillState(const pbd::Simulation& simulation, const ros::Time& stamp, const 
   fillAgents(simulation, message);
   fillCopies(simulation, message);
   message.points.resize(3 * body.pointCount() * body.copyCount());
-  body.points(message.points.data());
+  simulation.points(message.points.data());
+  message.correction.clear();
+  if (simulation.correction() != nullptr) {
+    message.correction = simulation.correction()->field();
+  }
   message.velocities.resize(3 * body.particleCount());
   body.velocities(0, message.velocities.data());
   message.orientations.resize(4 * body.particleCount());

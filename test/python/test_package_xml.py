@@ -10,7 +10,16 @@ from deformable_manipulation.system.package_files import package_share_directory
 CHECKOUT = package_share_directory()
 
 # rosdep has no key for these; the compiler and make come with catkin, the ROS commands with ROS.
-WITHOUT_KEY = {"g++", "make", "distributed", "daqp", "gcovr", "pytest-xdist", "types-PyYAML"}
+WITHOUT_KEY = {
+    "g++",
+    "make",
+    "distributed",
+    "daqp",
+    "gcovr",
+    "mujoco",
+    "pytest-xdist",
+    "types-PyYAML",
+}
 OTHER_KEYS = {
     "libdynamic-reconfigure-config-init-mutex-dev": "dynamic_reconfigure",
     "libeigen3-dev": "eigen",

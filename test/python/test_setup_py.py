@@ -25,7 +25,7 @@ def test_requirements_are_those_of_the_files_by_extra_and_python():
     requirements = read()[0]["requirements"]()
     assert 'numpy==1.26.4; python_version >= "3.11"' in requirements[""]
     assert 'numpy==1.24.4; python_version < "3.11"' in requirements[""]
-    assert {"", "cluster", "reference", "benchmarks", "tests"} == set(requirements)
+    assert {"", "cluster", "reference", "benchmarks", "mujoco", "tests"} == set(requirements)
     assert not any(text.startswith(("quadprog", "pytest")) for text in requirements[""])
 
 

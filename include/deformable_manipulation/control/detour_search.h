@@ -68,6 +68,7 @@ class DetourSearch {
   std::vector<int> placesTo(int last) const;
 
   std::shared_ptr<pbd::RestShapes> shapes_;
+  std::vector<double> correction_;  // [P x 3] m, of the shapes when the search began, or empty
   std::shared_ptr<distance::MinimumDistance> distance_;
   Limits limits_;
   std::vector<Vector3> held_;  // [A] m

@@ -18,12 +18,14 @@ class LinearShapes final : public pbd::RestShapes {
   void setResponse(std::vector<Vector3> held, const std::vector<double>& response);
 
   int pointCount() const override { return points_; }
-  void setPresent(const double* points) override { present_ = points; }
   void forget() override {}
   void find(const std::vector<Vector3>& held) override { moved_ = held; }
   bool known(int /*shape*/) const override { return true; }
-  void points(int shape, double* to) const override;
   void response(int shape, double* to) const override;
+
+ protected:
+  void placePresent(const double* points) override { present_ = points; }
+  void readPoints(int shape, double* to) const override;
 
  private:
   int points_ = 0;

@@ -65,6 +65,10 @@ class Body {
   //! Geometry points per copy (see points()).
   virtual int pointCount() const = 0;
 
+  //! [m] Arc lengths of the geometry points from the first end, for lines: particle i is halfway between points i and
+  //! i + 1. Empty: it is no line.
+  virtual std::vector<double> arcLengths() const { return {}; }
+
   //! [m] Largest possible distance between two particles of the unstretched object.
   virtual double freeLength(int particle, int other) const = 0;
 

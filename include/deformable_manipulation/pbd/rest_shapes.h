@@ -17,7 +17,8 @@ class RestShapes {
 
   //! The shape from which searches start where no shape nearby is known.
   //! @param points [P x 3] m, of the object itself as it is now
-  virtual void setPresent(const double* points) = 0;
+  //! @param correction [P x 3] m, of these points beside the model, which all shapes get; null: none
+  void setPresent(const double* points, const double* correction = nullptr);
 
   //! Where grips turn: the orientations [agents] of all of them in the shapes to be found.
   virtual void setOrientations(const std::vector<Quaternion>& /*orientations*/) {}
@@ -33,10 +34,21 @@ class RestShapes {
   virtual bool known(int shape) const = 0;
 
   //! Points [P x 3] m of a shape that is known.
-  virtual void points(int shape, double* to) const = 0;
+  void points(int shape, double* to) const;
 
   //! Derivative [agents x P x 3 x 3] of a known shape's points with respect to each held point.
   virtual void response(int shape, double* to) const = 0;
+
+ protected:
+  //! setPresent() of the model.
+  virtual void placePresent(const double* points) = 0;
+
+  //! points() of the model.
+  virtual void readPoints(int shape, double* to) const = 0;
+
+ private:
+  std::vector<double> correction_;     // [P x 3] m, or empty
+  std::vector<double> model_present_;  // [P x 3] m
 };
 
 }  // namespace pbd

@@ -32,6 +32,7 @@ class Rod final : public Body {
   double largestStretch() const override { return 0.01; }  //!< less than a thousandth to any load in use
   int particleCount() const override { return parameters_.segments; }
   int pointCount() const override { return parameters_.segments + 1; }
+  std::vector<double> arcLengths() const override;
   double freeLength(int particle, int other) const override;
   double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
   double stretch() const override;

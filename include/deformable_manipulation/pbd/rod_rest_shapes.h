@@ -18,13 +18,15 @@ class RodRestShapes final : public RestShapes {
   RodRestShapes(const Rod& rod, const std::vector<HeldPoint>& agents);
 
   int pointCount() const override { return rod_->pointCount(); }
-  void setPresent(const double* points) override;
   void setOrientations(const std::vector<Quaternion>& orientations) override;
   void forget() override { equilibrium_ = RodEquilibrium(); }
   void find(const std::vector<Vector3>& held) override;
   bool known(int shape) const override;
-  void points(int shape, double* to) const override { equilibrium_.points(shape, to); }
   void response(int shape, double* to) const override;
+
+ protected:
+  void placePresent(const double* points) override;
+  void readPoints(int shape, double* to) const override { equilibrium_.points(shape, to); }
 
  private:
   bool isFarFromPresent() const;

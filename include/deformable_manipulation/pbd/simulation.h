@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "deformable_manipulation/pbd/body.h"
+#include "deformable_manipulation/pbd/shape_correction.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -95,6 +97,22 @@ class Simulation {
   //! @throw ParameterError as Body::setMaterial(); nothing changes then.
   void setMaterial(const std::vector<MaterialParameter>& parameters);
 
+  //! From now on measured points correct where the object is, see points().
+  //! @throw ParameterError if it is no line
+  void correct(const CorrectionParameters& parameters);
+
+  //! Takes over what was seen of the object.
+  //! @param time [s] since the start, at which it was seen
+  //! @return why it is not used; empty: it is
+  //! @throw std::logic_error if nothing is corrected
+  std::string measure(double time, const std::vector<MeasuredPoint>& points);
+
+  //! Null: nothing is corrected.
+  const ShapeCorrection* correction() const { return correction_ ? &*correction_ : nullptr; }
+
+  //! Geometry points [m] of all copies, corrected, [copies x pointCount x 3].
+  void points(double* to) const;
+
   const Body& body() const { return *body_; }
   const std::vector<Agent>& agents() const { return agents_; }
   const Clock& clock() const { return clock_; }
@@ -149,6 +167,9 @@ class Simulation {
   const AgentState& state(int agent) const { return states_.at(static_cast<std::size_t>(agent)); }
   void settle();
   void spreadOverAgents(std::size_t numbers, double* to) const;
+  std::vector<double> heldArcLengths() const;
+  void restartCorrection();
+  void followCorrection();
 
   std::vector<Agent> agents_;
   Clock clock_;
@@ -156,6 +177,8 @@ class Simulation {
   std::vector<AgentState> states_;
   std::unique_ptr<Body> start_body_;  // as settled
   std::vector<AgentState> start_states_;
+  std::optional<ShapeCorrection> correction_;
+  std::vector<double> model_points_;      // [copies x P x 3] m, scratch
   mutable std::vector<double> response_;  // of the holds, in the body's order
   bool start_changed_ = false;            // since start_body_ was settled
   Rest rest_ = Rest::MOVING;

@@ -100,11 +100,15 @@ def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
     leader = dataclasses.replace(drawn.leader, waypoints=tuple(path))
     drawn = dataclasses.replace(drawn, leader=leader)
     # Last, so that the rest of a run is the same with it and without.
-    return dataclasses.replace(drawn, knowledge=_knowledge(random)) if ranges.imperfect else drawn
+    if not ranges.imperfect:
+        return drawn
+    return dataclasses.replace(drawn, knowledge=_knowledge(drawn.knowledge, random))
 
 
-def _knowledge(random) -> KnowledgeSpec:
-    return KnowledgeSpec(
+def _knowledge(given: KnowledgeSpec, random) -> KnowledgeSpec:
+    """The scenario's own knowledge, with random amounts of what is wrong."""
+    return dataclasses.replace(
+        given,
         pose_noise=random.uniform(0.0, _MOST_NOISE),
         pose_delay=random.uniform(0.0, _MOST_DELAY),
         stiffness_factor=_factor(_LARGEST_FACTOR, random),

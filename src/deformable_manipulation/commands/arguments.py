@@ -5,6 +5,8 @@ import re
 from pathlib import Path
 from typing import List, Sequence, Tuple
 
+from deformable_manipulation.scenario.knowledge import MUJOCO, OWN
+
 # Where the next key of several begins: values may have blanks, too.
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
 
@@ -34,6 +36,27 @@ def add_scenario_arguments(
         default=[],
         help="replace a value of the scenario; use an index for list items; can be repeated",
     )
+
+
+def add_world_argument(parser: argparse.ArgumentParser) -> None:
+    """Add ``--world``, which is short for ``--set knowledge.world=...``."""
+    parser.add_argument(
+        "--world",
+        choices=(OWN, MUJOCO),
+        dest="set",
+        type=str,
+        action=_WorldAction,
+        default=argparse.SUPPRESS,
+        help=f"what simulates the true object: this package ({OWN}) or another engine; the "
+        "controllers then see poses of the grips alone. Short for --set knowledge.world=...",
+    )
+
+
+class _WorldAction(argparse.Action):
+    """Appends the override that an option is short for."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        namespace.set = [*namespace.set, ("knowledge.world", values)]
 
 
 def override(text: str) -> Tuple[str, str]:

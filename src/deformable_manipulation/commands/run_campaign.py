@@ -26,6 +26,7 @@ from deformable_manipulation.campaign.runs import Campaign, Classes
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.commands.arguments import (
     add_scenario_arguments,
+    add_world_argument,
     command_parser,
     folder_name,
 )
@@ -87,6 +88,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser = command_parser("run_campaign", DESCRIPTION, EPILOG)
     add_scenario_arguments(parser)
+    add_world_argument(parser)
     defaults = Ranges()
     parser.add_argument(
         "--runs",

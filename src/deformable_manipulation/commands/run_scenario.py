@@ -6,7 +6,11 @@ import time
 from pathlib import Path
 from typing import Optional, Sequence
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments, folder_name
+from deformable_manipulation.commands.arguments import (
+    add_scenario_arguments,
+    add_world_argument,
+    folder_name,
+)
 from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.progress import ProgressDisplay
 from deformable_manipulation.commands.without_ros import warn_of_standing_obstacles
@@ -65,6 +69,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_scenario_arguments(parser)
+    add_world_argument(parser)
     parser.add_argument(
         "--output",
         metavar="DIR",

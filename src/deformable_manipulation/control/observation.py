@@ -39,6 +39,8 @@ class Observation:
     wrenches: Optional[np.ndarray] = None
     # (A, 6, A, 6) d wrench / d held point, turn, of the object at rest; None: not known
     wrench_sensitivities: Optional[np.ndarray] = None
+    # (P, 3) m, how measured points have moved those of the model; None: not
+    correction: Optional[np.ndarray] = None
     obstacles: Optional[np.ndarray] = None  # (K, 7) poses of those that move: m, x, y, z, w
     # What is seen of live obstacles, by their indices (seeing.live_map.Seen)
     seen: Mapping[int, Any] = dataclasses.field(default_factory=dict)

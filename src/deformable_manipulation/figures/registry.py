@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import Callable, Dict, Optional, Sequence, Tuple
 
 from deformable_manipulation.benchmarks.subject import SUBJECTS
-from deformable_manipulation.figures import announcements, campaigns, scenarios, seen
+from deformable_manipulation.figures import announcements, campaigns, scenarios, seen, worlds
 from deformable_manipulation.figures.runs import Say
 
 README = "README.md"
 RESULTS = "docs/results.md"
 SAFETY = "docs/safety.md"
+REAL_OBJECTS = "docs/real_objects.md"
 VALIDATION = "docs/validation.md"
 BENCHMARKS = "docs/benchmarks.md"
 
@@ -138,6 +139,20 @@ SUBJECT_LIST: Sequence[Subject] = (
         CAMPAIGNS,
         campaigns.measure_knowledge,
     ),
+    Subject(
+        {"other_world": SAFETY},
+        "run_scenario SCENARIO --world mujoco [OPTIONS]",
+        CLOSED_LOOP,
+        worlds.measure_ropes,
+    ),
+    Subject(
+        {"other_world_fabric": SAFETY},
+        "run_scenario fabric_three_assistants --world mujoco [OPTIONS]",
+        CLOSED_LOOP,
+        worlds.measure_fabrics,
+    ),
+    Subject({"clamp": REAL_OBJECTS}, "by hand, hang() of the validation", THEORY),
+    Subject({"world_theory": REAL_OBJECTS}, "by hand, see test_engine_world.py", CLOSED_LOOP),
     Subject({"fabric_gradients": SAFETY}, "by hand, see test_fabric_gradients.py", CLOSED_LOOP),
     Subject({"stiff_fabric": SAFETY}, "run_campaign fabric_three_assistants [OPTIONS]", CAMPAIGNS),
     Subject({"cooperation": SAFETY}, "run_scenario NAME [OPTIONS]", CLOSED_LOOP),

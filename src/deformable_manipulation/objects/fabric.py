@@ -132,13 +132,21 @@ class FabricSpec(ObjectSpec):
         That is 10 x compliance x weight / length of an edge of mean length. Held by corners at 99 %
         of its size, a fabric pulls on them by several times its weight.
         """
-        corners = np.array(self.vertices)[np.array(self.triangles)]
-        doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        area = 0.5 * np.linalg.norm(doubled, axis=1).sum()
-        weight = self.density * area * np.linalg.norm(gravity)
+        weight = self.density * self._areas().sum() * np.linalg.norm(gravity)
         mean_length = self.edges()[1].mean()
         pulled = _LARGEST_PULL * self.stretching_compliance * weight / mean_length
         return float(LARGEST_VALID_STRETCH + pulled)
+
+    def masses(self) -> np.ndarray:
+        """Of the vertices (V,) [kg]: a third of that of each triangle around."""
+        shares = np.repeat(self.density * self._areas() / 3.0, 3)
+        return np.bincount(np.ravel(self.triangles), shares, minlength=self.particles)
+
+    def _areas(self) -> np.ndarray:
+        """Of the triangles (T,) [m^2]."""
+        corners = np.array(self.vertices)[np.array(self.triangles)]
+        doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return 0.5 * np.linalg.norm(doubled, axis=1)
 
     def with_factors(self, stiffness: float, density: float) -> "FabricSpec":
         """See :meth:`.ObjectSpec.with_factors`."""

@@ -151,7 +151,7 @@ class RodSpec(ObjectSpec):
         if self.segments <= _FEW_SEGMENTS:
             return _SUBSTEPS
         # The balance of weight and bending stiffness at the ends of a hanging rod.
-        bend = math.sqrt(2.0 * self._bending_stiffness() / (self.mass * _GRAVITY)) / self.length
+        bend = math.sqrt(2.0 * self.bending_stiffness / (self.mass * _GRAVITY)) / self.length
         return next(count for least, count in _SUBSTEPS_OF_CHAINS if bend >= least)
 
     def valid_stretch(self, gravity: Vector) -> float:
@@ -166,6 +166,10 @@ class RodSpec(ObjectSpec):
             torsion_modulus=stiffness * self.torsion_modulus,
             density=density * self.density,
         )
+
+    def refined(self, factor: int) -> "RodSpec":
+        """See :meth:`.ObjectSpec.refined`."""
+        return dataclasses.replace(self, segments=factor * self.segments)
 
     def with_random_material(self, draw: Callable[[], float]) -> "RodSpec":
         """Both moduli have the same factor."""
@@ -184,14 +188,15 @@ class RodSpec(ObjectSpec):
     @property
     def stiffness_over_mass(self) -> float:
         """Bending stiffness over mass per length, E I / (rho A) [m^4/s^2]."""
-        return self._bending_stiffness() * self.length / self.mass
+        return self.bending_stiffness * self.length / self.mass
 
     @property
     def mass(self) -> float:
         """Of the whole rod [kg]."""
         return self.density * math.pi * self.radius**2 * self.length
 
-    def _bending_stiffness(self) -> float:
+    @property
+    def bending_stiffness(self) -> float:
         """Of the cross-section, E I [N m^2]."""
         return self.young_modulus * math.pi * self.radius**4 / 4.0
 
@@ -210,7 +215,7 @@ class RodSpec(ObjectSpec):
                 self.young_modulus,
                 self.torsion_modulus,
                 self.mass,
-                self._bending_stiffness(),
+                self.bending_stiffness,
             )
         )
 

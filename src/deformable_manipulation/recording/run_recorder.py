@@ -44,7 +44,8 @@ class RunRecorder:
         self._safety = safety
         self._start = start
         self._series = TimeSeries.of(scenario)
-        self._frames = []  # (time, points, agents, obstacles); one append each, never half a frame
+        # (time, points, agents, obstacles, model); one append each, never half a frame
+        self._frames = []
         self._last_frame = -1
         self._frames_per_cycle = scenario.simulation.record_rate, scenario.controller.rate
         run_files.prepare_folder(self.directory, overwrite)
@@ -63,6 +64,7 @@ class RunRecorder:
                     np.array(record.points, dtype=np.float32),
                     np.array(record.positions, dtype=np.float32),
                     np.array(record.obstacles, dtype=np.float32),
+                    record.model and record.model.points.astype(np.float32),
                 )
             )
 
@@ -105,7 +107,7 @@ class RunRecorder:
         file.write(scenario_to_yaml(self._scenario))
 
     def _write_states(self, file) -> None:
-        times, points, agents, obstacles = zip(*self._frames) if self._frames else ((),) * 4
+        times, points, agents, obstacles, model = zip(*self._frames) if self._frames else ((),) * 5
         agent_names = [agent.name for agent in self._scenario.agents]
         arrays = {
             "times": np.array(times, dtype=np.float32),
@@ -117,6 +119,8 @@ class RunRecorder:
         if moving:
             arrays["obstacles"] = np.array(obstacles, np.float32).reshape(len(times), -1, 7)
             arrays["obstacle_names"] = np.array(moving)
+        if model and model[0] is not None:
+            arrays["model_points"] = np.stack(model)
         faces = self._scenario.object.faces()
         if faces is not None:
             arrays["faces"] = faces.astype(np.int32)

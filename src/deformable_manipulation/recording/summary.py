@@ -32,6 +32,8 @@ def summarise(
 
     ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
+    ``min_model_distance`` that of the model where the controllers see one, with its largest
+    correction and the cycles in which it disagreed with what was measured,
     ``min_margin`` the lowest h of each barrier over the run, in its unit, ``max_stretch`` the
     largest relative change of length anywhere in it; where that is more than
     what the object's material allows, ``valid_stretch``, ``shape_valid`` is false.
@@ -53,6 +55,11 @@ def summarise(
         "rate": scenario.controller.rate,
         "wall_time": wall_time,
         "min_distance": min_distance,
+        **(
+            {"min_model_distance": _lowest(series.column("model_distance"))}
+            if series.modelled
+            else {}
+        ),
         "offset": offset,
         "worst_violation": 0.0 if min_distance is None else max(0.0, offset - min_distance),
         "max_stretch": max_stretch,
@@ -126,6 +133,8 @@ def _outcome_lines(summary: dict) -> List[str]:
         ),
         "worst violation            {}".format(_millimetres(summary["worst_violation"])),
     ]
+    if summary.get("min_model_distance") is not None:
+        lines.insert(1, "    of the model           " + _millimetres(summary["min_model_distance"]))
     for name, margin in summary["min_margin"].items():
         if name != "collision":  # told as distance
             label = "lowest {}".format(BARRIERS[name].margin)
@@ -155,6 +164,18 @@ def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:
 def _lowest(values: np.ndarray) -> Optional[float]:
     finite = values[np.isfinite(values)]
     return float(finite.min()) if finite.size else None
+
+
+def _of_model(series: TimeSeries) -> dict:
+    """What is told of a model of the object, if the controllers see one."""
+    if not series.modelled:
+        return {}
+    correction, disagrees = series.column("correction"), series.column("disagrees")
+    return {
+        "min_model_distance": _lowest(series.column("model_distance")),
+        "max_correction": -(_lowest(-correction) or 0.0),
+        "disagreeing": int(np.count_nonzero(disagrees == 1.0)),
+    }
 
 
 def _error_statistics(error: np.ndarray) -> dict:

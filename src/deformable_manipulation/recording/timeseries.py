@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import IO, List, Mapping, NamedTuple, Sequence, Tuple
+from typing import IO, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -19,6 +19,8 @@ def vector_columns(name: str) -> Tuple[str, ...]:
 
 
 RUN_COLUMNS = ("cycle", "time", "distance", "stretch")
+# Of runs whose controllers see a model of the object.
+MODEL_COLUMNS = ("model_distance", "correction", "disagrees")
 AGENT_COLUMNS = vector_columns("position") + vector_columns("velocity")
 # Kept beside the columns of the file: they describe the machine, not the run.
 TIMING_COLUMNS = ("simulation", "distance", "controller")
@@ -62,6 +64,15 @@ class CycleTimings(NamedTuple):
     controller: float
 
 
+class ModelRecord(NamedTuple):
+    """What the controllers saw in place of the object itself."""
+
+    distance: float  # m, signed minimum; inf: no obstacle
+    points: np.ndarray  # (P, 3) m
+    correction: float = 0.0  # m, by which measured points have moved it, where that is largest
+    disagrees: bool = False  # whether it disagrees with them
+
+
 @dataclass(frozen=True)
 class CycleRecord:
     """Everything worth keeping of one cycle: A agents, P geometry points of the object itself.
@@ -80,6 +91,7 @@ class CycleRecord:
     obstacles: np.ndarray  # (K, 7) m, quaternion: poses of the K moving obstacles
     decisions: Mapping[str, Decision]
     timings: CycleTimings
+    model: Optional[ModelRecord] = None  # None: the controllers see the object itself
 
 
 class TimeSeries:
@@ -90,8 +102,14 @@ class TimeSeries:
         """An empty table for a run of a scenario."""
         names = tuple(agent.name for agent in scenario.agents)
         assistants = tuple(names[index] for index in scenario.assistants)
-        controller = scenario.controller
-        return cls(names, assistants, controller.barriers, scenario.cycles, controller.turns)
+        return cls(
+            names,
+            assistants,
+            scenario.controller.barriers,
+            rows=scenario.cycles,
+            turns=scenario.controller.turns,
+            modelled=not scenario.knowledge.sees_object,
+        )
 
     def __init__(
         self,
@@ -100,14 +118,24 @@ class TimeSeries:
         barriers: Tuple[str, ...],
         rows: int = 0,
         turns: bool = False,
+        modelled: bool = False,
     ):
-        """``agents`` in the order of a CycleRecord's arrays; ``rows`` expected; grips turn."""
+        """An empty table.
+
+        Args:
+            agents: in the order of the arrays of a CycleRecord.
+            assistants: those of them that decide.
+            barriers: in use, by name.
+            rows: expected.
+            turns: whether grips turn.
+            modelled: whether the records have a ``model``.
+        """
         self._turns = turns
         self.assistants = assistants
         self.barriers = barriers
-        self.columns = RUN_COLUMNS + tuple(
-            f"{agent}.{column}" for agent in agents for column in AGENT_COLUMNS
-        )
+        self.modelled = modelled
+        self.columns = RUN_COLUMNS + (MODEL_COLUMNS if modelled else ())
+        self.columns += tuple(f"{agent}.{column}" for agent in agents for column in AGENT_COLUMNS)
         self.columns += tuple(
             f"{assistant}.{name}"
             for assistant in assistants
@@ -128,6 +156,9 @@ class TimeSeries:
             self._allocate(2 * count)
         # One list and one assignment: many small assignments to an array cost twice as much.
         row = [record.cycle, record.time, record.distance, record.stretch]
+        if self.modelled:
+            model = record.model
+            row += [model.distance, model.correction, model.disagrees] if model else 3 * [math.nan]
         for position, velocity in zip(record.positions.tolist(), record.velocities.tolist()):
             row += position
             row += velocity

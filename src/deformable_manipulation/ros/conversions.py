@@ -90,6 +90,7 @@ def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=N
         sensitivities=_sensitivities(state, order),
         wrenches=_wrenches(state, order),
         wrench_sensitivities=_wrench_sensitivities(state, order),
+        correction=_correction(state),
         obstacles=obstacles,
         intent=intent,
         lateness=_whole_cycles(age, scenario.cycle_time),
@@ -107,6 +108,13 @@ def require_frame(name, message, scenario):
         raise MessageError(
             f"{name}.header.frame_id: '{message.header.frame_id}', expected '{scenario.frame}'"
         )
+
+
+def _correction(state):
+    """(P, 3) [m], or None. Raises MessageError."""
+    if not len(state.correction):
+        return None
+    return _reshaped(state.correction, "correction", (state.point_count, 3))
 
 
 def _measured_velocities(state, order):

@@ -12,14 +12,14 @@ from deformable_manipulation.motion.intent import Intent
 from deformable_manipulation.motion.leader import LeaderController
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.running.announcer import Announcer
-from deformable_manipulation.running.imperfect import ImperfectKnowledge, true_scenario
+from deformable_manipulation.running.imperfect import ImperfectKnowledge
 from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.seeing.seen_obstacles import live_obstacles
 from deformable_manipulation.seeing.sight import Sight
-from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 from deformable_manipulation.simulation.stretch import StretchGauge
+from deformable_manipulation.worlds.factory import make_world, true_scenario
 
 _PROGRESS_REPORTS = 100
 
@@ -35,6 +35,7 @@ class ClosedLoop:
     Raises:
         _pbd.ParameterError: a parameter of the scenario is out of the simulation's range.
         ScenarioError: the object at rest bears more than a limit allows.
+        WorldError: the engine of ``knowledge.world`` is missing or has no such object.
     """
 
     def __init__(self, scenario: Scenario, safety: bool = True):
@@ -42,7 +43,8 @@ class ClosedLoop:
         perfect = scenario.knowledge.sees_object
         # No gradients are needed without barriers; with imperfect knowledge the model has its own.
         copies = safety and perfect
-        self._simulation = make_simulation(true_scenario(scenario), copies)
+        truth = true_scenario(scenario)
+        self._simulation = make_world(truth, copies)
         self._sight = Sight(scenario) if live_obstacles(scenario) else None
         self._truth = TrueDistance(scenario, self._simulation)
         self._leader = LeaderController(scenario)
@@ -57,7 +59,7 @@ class ClosedLoop:
             self._knowledge = ImperfectKnowledge(
                 scenario, self._controllers, make_minimum_distance(scenario)
             )
-        self._stretch = StretchGauge(scenario.object)
+        self._stretch = StretchGauge(truth.object)
         if safety and has_load_limits(scenario):
             refuse_overloads(self._margins())
 
@@ -128,6 +130,7 @@ class ClosedLoop:
             velocities=velocities,
             points=points,
             obstacles=self._observer.obstacle_poses(),
+            model=self._knowledge.model if self._knowledge is not None else None,
             decisions=decisions,
             timings=CycleTimings(
                 simulation=advanced - advancing,
@@ -139,7 +142,8 @@ class ClosedLoop:
     def _margins(self) -> Dict[str, Dict[str, float]]:
         """The present h of each barrier, of all assistants by their names."""
         # Without the response: looking for it once more would change the run by rounding.
-        observer = Observer(self._scenario, self._simulation, self._distance, False)
+        known = make_known_distance(self._scenario)
+        observer = Observer(self._scenario, self._simulation, known, False)
         observation = observer.observe()
         return {
             name: controller.margins(name, observation)

@@ -3,13 +3,16 @@
 import dataclasses
 import math
 from collections import deque
-from typing import Dict, Sequence
+from typing import Dict, Optional, Sequence
 
 import numpy as np
 
 from deformable_manipulation._control import PositionFilter
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
+from deformable_manipulation.reading.plain import plain
+from deformable_manipulation.recording.timeseries import ModelRecord
+from deformable_manipulation.running.camera import Camera
 from deformable_manipulation.scenario.spec import KnowledgeSpec, Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
@@ -41,6 +44,11 @@ class ImperfectController:
             if scenario.agents[index].name in controller.names
         }
 
+    def stop(self, truth: Observation) -> Dict[str, Decision]:
+        """Decide to stop, because the model is not that of the object."""
+        self._decisions = self._controller.wait("the model disagrees with the measured points")
+        return self._told(truth)
+
     def update(self, seen: Observation, truth: Observation) -> Dict[str, Decision]:
         """Decide the velocities; if the state does not arrive, repeat the last commands."""
         if self._random.random() >= self._dropped:
@@ -48,6 +56,9 @@ class ImperfectController:
             self._decisions = self._controller.update(seen)
         elif seen.time - self._answered > self._timeout:
             self._decisions = self._controller.wait("no state has arrived for too long")
+        return self._told(truth)
+
+    def _told(self, truth: Observation) -> Dict[str, Decision]:
         return {
             name: self._truths[name].told(decision, truth)
             for name, decision in self._decisions.items()
@@ -89,10 +100,14 @@ class ImperfectKnowledge:
         scenario: the scenario as it is assumed to be; its ``knowledge`` says what is wrong.
         controllers: TeamControllers of all assistants.
         distance: MinimumDistance or one like it, for the model.
+
+    Attributes:
+        model: what the controllers saw of the object in the last state, None before the first.
     """
 
     def __init__(self, scenario: Scenario, controllers: Sequence, distance):
         knowledge = scenario.knowledge
+        self.model: Optional[ModelRecord] = None
         self._cycle_time = scenario.cycle_time
         self._model = make_simulation(scenario)
         self._observer = Observer(scenario, self._model, distance)
@@ -103,6 +118,14 @@ class ImperfectKnowledge:
             np.random.default_rng([knowledge.seed, 0]),
         )
         self._delay = knowledge.pose_delay
+        self._stop = False
+        self._camera = None
+        if scenario.correction is not None:
+            self._model.correct(plain(scenario.correction))
+            self._stop = scenario.correction.stop
+            if knowledge.camera_rate > 0.0:
+                random = np.random.default_rng([knowledge.seed, 2])
+                self._camera = Camera(knowledge, float(scenario.object.edges()[1].sum()), random)
         self._filter = PositionFilter(scenario.controller.pose_smoothing)
         drops = np.random.default_rng([knowledge.seed, 1])
         self._controllers = [
@@ -118,13 +141,34 @@ class ImperfectKnowledge:
         self._filter.update(truth.time - self._delay, self._poses.measure(truth.positions))
         if truth.cycle > 0:
             self._follow(self._filter.position(truth.time))
+        self._correct(truth)
         seen = dataclasses.replace(
             self._observer.observe(truth.intent), velocities=self._filter.velocity()
         )
+        self.model = self._recorded(seen)
+        stopped = self._stop and self._model.disagrees
         decisions = {}
         for controller in self._controllers:
-            decisions.update(controller.update(seen, truth))
+            decisions.update(controller.stop(truth) if stopped else controller.update(seen, truth))
         return decisions
+
+    def _correct(self, truth: Observation) -> None:
+        """Show the model what the camera sees."""
+        if self._camera is not None:
+            picture = self._camera.look(truth.time, truth.points[0])
+            if picture is not None:
+                self._model.measure(picture.time, picture.points, picture.places)
+
+    def _recorded(self, seen: Observation) -> ModelRecord:
+        correction = 0.0
+        if seen.correction is not None:
+            correction = float(np.linalg.norm(seen.correction, axis=1).max())
+        return ModelRecord(
+            float(seen.distances.minimum[0]),
+            seen.points[0].copy(),
+            correction,
+            self._model.disagrees,
+        )
 
     def _follow(self, positions: np.ndarray) -> None:
         """Advance the model to the next state, with its held points going to ``positions``."""
@@ -154,10 +198,3 @@ class MeasuredPoses:
         if self._weight:  # held points move at constant velocity within a cycle
             measured = measured + self._weight * (self._states[1] - measured)
         return measured + self._noise * self._random.standard_normal(measured.shape)
-
-
-def true_scenario(scenario: Scenario) -> Scenario:
-    """The scenario with the object's true material in place of the assumed one."""
-    knowledge = scenario.knowledge
-    truth = scenario.object.with_factors(knowledge.stiffness_factor, knowledge.density_factor)
-    return dataclasses.replace(scenario, object=truth)

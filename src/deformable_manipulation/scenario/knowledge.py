@@ -2,15 +2,41 @@
 
 import dataclasses
 from dataclasses import dataclass
+from typing import Optional
 
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Choice, Integer, Number, Report, Section
+from deformable_manipulation.reading.readers import (
+    Choice,
+    Flag,
+    Integer,
+    Node,
+    Number,
+    Report,
+    Section,
+)
 from deformable_manipulation.scenario.controller import ControllerSpec
 
 HONEST, OPPOSITE, DELAYED, SCALED, RANDOM = "honest", "opposite", "delayed", "scaled", "random"
 
+OWN, MUJOCO = "own", "mujoco"  # worlds
+
+_REFINEMENT = 3  # of a rod in another world: real ropes are not made of segments
 _FACTOR = Number("1", at_least=0.01, at_most=100.0)
+
+
+class _OddNumber(Integer):
+    """Odd, so that a finer piece lies where the centre of a segment is."""
+
+    def __init__(self, at_most: int):
+        super().__init__(1, at_most)
+        self.allowed = "1, 3, 5 to {}".format(at_most)
+
+    def __call__(self, node: Node) -> int:
+        value = super().__call__(node)
+        if value % 2 == 0:
+            node.fail("must be odd: " + self.allowed)
+        return value
 
 
 @dataclass(frozen=True)
@@ -36,11 +62,54 @@ class KnowledgeSpec:
     density_factor: float = parameter(
         _FACTOR, "True density divided by the assumed one.", default=1.0
     )
+    world: str = parameter(
+        Choice(OWN, MUJOCO),
+        "What simulates the true object: this package, or "
+        "[MuJoCo](real_objects.md#a-world-that-is-not-ours). The controllers see it only through "
+        "poses of the agents.",
+        default=OWN,
+    )
+    refinement: int = parameter(
+        _OddNumber(99),
+        "Pieces of the true rod per segment of the assumed one. Real ropes are not made of "
+        "segments.",
+        default=1,
+        default_text="3 for rods in the world `mujoco`, else 1",
+        allowed="1 for fabrics",
+    )
     dropped_cycles: float = parameter(
         Number("1", at_least=0.0, at_most=0.99),
         "Probability that a controller gets no new state in a cycle. It repeats its last command "
         "for at most `controller.timeout`.",
         default=0.0,
+    )
+    camera_rate: float = parameter(
+        Number("Hz", at_least=0.0, at_most=1000.0),
+        "How often a camera sees points of the object, which [correct](#correction) the model. 0: "
+        "there is none.",
+        default=0.0,
+    )
+    camera_points: int = parameter(
+        Integer(1, 10000), "Points in each picture, evenly along the object.", default=20
+    )
+    camera_noise: float = parameter(
+        Number("m", at_least=0.0, at_most=0.1),
+        "Standard deviation of every coordinate of such a point.",
+        default=0.0,
+    )
+    camera_delay: float = parameter(
+        Number("s", at_least=0.0, at_most=1.0), "Age of a picture when it arrives.", default=0.0
+    )
+    camera_hidden: float = parameter(
+        Number("1", at_least=0.0, at_most=1.0),
+        "Part of the object that is hidden: a piece that wanders along it.",
+        default=0.0,
+    )
+    camera_places: bool = parameter(
+        Flag(),
+        "Whether the camera knows where along the object a point is, as with markers. Otherwise "
+        "it is the nearest place of the model.",
+        default=True,
     )
     intent: str = parameter(
         Choice(HONEST, OPPOSITE, DELAYED, SCALED, RANDOM),
@@ -66,7 +135,24 @@ class KnowledgeSpec:
         return dataclasses.replace(self, intent=HONEST).perfect
 
 
-KNOWLEDGE = Section(KnowledgeSpec)
+# refinement depends on the object where it is left out: for_object() fills it in.
+KNOWLEDGE = Section(KnowledgeSpec, defaults={"refinement": None})
+
+
+def for_object(report: Report, knowledge: KnowledgeSpec, spec) -> KnowledgeSpec:
+    """The section with what depends on the object filled in; what is not of it is reported.
+
+    Args:
+        knowledge: as read, with None for what is not given.
+        spec: the object.
+    """
+    finer: Optional[int] = knowledge.refinement
+    if finer is None:
+        finer = _REFINEMENT if knowledge.world == MUJOCO and not spec.is_surface else 1
+    elif spec.is_surface and finer > 1:
+        report.add(("knowledge", "refinement"), "must be 1 for fabrics", show(finer))
+        finer = 1
+    return dataclasses.replace(knowledge, refinement=finer)
 
 
 def check_delay(report: Report, controller: ControllerSpec, knowledge: KnowledgeSpec) -> None:

@@ -14,7 +14,7 @@ from deformable_manipulation.reading.readers import (
     Section,
     Unreadable,
 )
-from deformable_manipulation.scenario import checks, controller, simulation
+from deformable_manipulation.scenario import checks, controller, knowledge, simulation
 from deformable_manipulation.scenario.agents import read_agents
 from deformable_manipulation.scenario.camera import (
     check_camera,
@@ -22,9 +22,9 @@ from deformable_manipulation.scenario.camera import (
     check_live_obstacles,
     check_presence,
 )
+from deformable_manipulation.scenario.correction import check_correction, check_measured_points
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
-from deformable_manipulation.scenario.knowledge import check_delay
 from deformable_manipulation.scenario.orientation import check_orientation
 from deformable_manipulation.scenario.spec import Scenario
 
@@ -132,6 +132,8 @@ def _fill_in(report: Report, parts: Dict[str, Any]) -> None:
         parts["simulation"] = simulation.for_object(report, parts["simulation"], parts["object"])
     if "controller" in parts:
         parts["controller"] = controller.for_object(parts["controller"], parts["object"])
+    if "knowledge" in parts:
+        parts["knowledge"] = knowledge.for_object(report, parts["knowledge"], parts["object"])
 
 
 def _check_together(report: Report, parts: Dict[str, Any]) -> None:
@@ -147,7 +149,9 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_orientation, "object", "agents", "controller", "knowledge")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
-    check(check_delay, "controller", "knowledge")
+    check(knowledge.check_delay, "controller", "knowledge")
+    check(check_correction, "object", "correction")
+    check(check_measured_points, "knowledge", "correction")
     check(check_camera, "frame", "controller", "camera")
     check(check_live_obstacles, "obstacles", "controller")
     check(check_presence, "obstacles")

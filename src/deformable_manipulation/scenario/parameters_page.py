@@ -19,6 +19,7 @@ from deformable_manipulation.reading.readers import Items, Section
 from deformable_manipulation.scenario.agents import AGENT
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.camera import CAMERA
+from deformable_manipulation.scenario.correction import CORRECTION
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HORIZON
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE
@@ -81,6 +82,7 @@ def sections() -> Dict[str, Any]:
         "controller.horizon": HORIZON,
         "controller.wrench_watch": WRENCH_WATCH,
         "simulation": SIMULATION,
+        "correction": CORRECTION,
         "knowledge": KNOWLEDGE,
         "camera": CAMERA,
     }

@@ -52,6 +52,7 @@ from deformable_manipulation.scenario.controller import (
     DECENTRALISED,
     ControllerSpec,
 )
+from deformable_manipulation.scenario.correction import CORRECTION, CorrectionSpec
 from deformable_manipulation.scenario.formulation import CONTROLLER
 from deformable_manipulation.scenario.horizon import HorizonSpec
 from deformable_manipulation.scenario.knowledge import KNOWLEDGE, KnowledgeSpec
@@ -76,6 +77,7 @@ __all__ = [
     "CloudObstacle",
     "CollisionSpec",
     "ControllerSpec",
+    "CorrectionSpec",
     "CylinderObstacle",
     "FabricSpec",
     "FieldObstacle",
@@ -136,6 +138,13 @@ class Scenario:
     leader: LeaderSpec = parameter(LEADER_PATH, "Where the leader goes.")
     controller: ControllerSpec = parameter(CONTROLLER, "How the assistants are controlled.")
     simulation: SimulationSpec = parameter(SIMULATION, "How the object is simulated.")
+    correction: Optional[CorrectionSpec] = parameter(
+        CORRECTION,
+        "How measured points of the object correct its model "
+        "([real_objects.md](real_objects.md#correction-while-it-runs)). Rods only.",
+        default=None,
+        default_text="none",
+    )
     knowledge: KnowledgeSpec = parameter(
         KNOWLEDGE,
         "What the controllers do not know exactly, in runs without ROS.",

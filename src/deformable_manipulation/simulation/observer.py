@@ -62,6 +62,7 @@ class Observer:
             ready=simulation.ready(),
             distances=distances,
             sensitivities=sensitivities,
+            correction=simulation.correction,
             wrenches=simulation.wrenches() if self._wrenches else None,
             wrench_sensitivities=simulation.wrench_response() if self._wrenches and known else None,
             orientations=simulation.orientations() if self._turns else None,

@@ -132,8 +132,8 @@ class BagWriter:
         )
         for name in (
             "agent_orientations agent_velocities agent_angular_velocities displacements "
-            "orientations velocities measured_velocities sensitivities turning_sensitivities "
-            "wrenches wrench_sensitivities"
+            "orientations velocities measured_velocities correction sensitivities "
+            "turning_sensitivities wrenches wrench_sensitivities"
         ).split():
             values[name] = np.zeros(0)
         message = self._message(OBJECT_STATE, cycle, reset_count, values)

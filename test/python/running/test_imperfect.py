@@ -10,9 +10,10 @@ from deformable_manipulation.commands import run_scenario
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.running.closed_loop import ClosedLoop
-from deformable_manipulation.running.imperfect import MeasuredPoses, true_scenario
+from deformable_manipulation.running.imperfect import MeasuredPoses
 from deformable_manipulation.scenario import ScenarioError, load_scenario, pair_limits
 from deformable_manipulation.scenario.spec import KnowledgeSpec
+from deformable_manipulation.worlds.factory import true_scenario
 
 SHORT_ROPE = Path(__file__).resolve().parents[2] / "rostest" / "short_rope.yaml"
 ASSISTANT = "assistant_1"
