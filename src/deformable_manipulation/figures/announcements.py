@@ -43,7 +43,11 @@ def measure_wrong_announcements(say: Say) -> Dict[str, str]:
 
 def outcome(summary: Dict) -> List[str]:
     """Cells of a campaign."""
-    ends = [summary["violations"][kind]["interval"] for kind in ("collision", "overstretch")]
-    intervals = [f"{100.0 * low:.0f} to {100.0 * high:.0f} %" for low, high in ends]
     stuck, relaxed = summary["stuck"]["runs"], summary["relaxed_programs"]
-    return [missed(summary), "; ".join(intervals), str(stuck), str(relaxed)]
+    return [missed(summary), intervals(summary), str(stuck), str(relaxed)]
+
+
+def intervals(summary: Dict) -> str:
+    """The 95 % intervals of the shares of runs too close, and overstretched."""
+    ends = [summary["violations"][kind]["interval"] for kind in ("collision", "overstretch")]
+    return "; ".join(f"{100.0 * low:.1f} to {100.0 * high:.1f} %" for low, high in ends)

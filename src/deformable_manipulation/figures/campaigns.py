@@ -66,19 +66,6 @@ _KNOWLEDGE: Tuple[Sequence[str], ...] = (
         "density_factor=0.5",
     ),
 )
-# Scenario, speed of the leader [m/s], number of runs.
-_FAST_LEADERS: Tuple[Tuple[str, str, int], ...] = (
-    ("rope_one_assistant", "0.1", 60),
-    ("rope_one_assistant", "0.2", 60),
-    ("rope_one_assistant", "0.3", 100),
-    ("rope_two_assistants", "0.3", 40),
-    (_STIFF, "0.2", 60),
-)
-_LOOKING: Tuple[Tuple[str, str], ...] = (
-    ("", "horizon of 3 s"),
-    ("controller.horizon.length=0", "present cycle only"),
-    (_PAPER, "paper"),
-)
 _ROWS_LIMIT = 0.052  # m, offset and margin of rope_one_assistant
 
 
@@ -126,20 +113,6 @@ def measure_moving_obstacles(say: Say) -> Dict[str, str]:
         (_MOVING, value): run_campaign(_MOVING, [*options, *_set(value)], say) for value in values
     }
     return {"campaigns_moving_obstacle": _campaigns(found)}
-
-
-def measure_fast_leaders(say: Say) -> Dict[str, str]:
-    """Return the table ``fast_leaders``."""
-    rows = []
-    for name, speed, runs in _FAST_LEADERS:
-        fixed = ["--runs", str(runs), "--seed", "7", "--duration", "50", "--speed", speed]
-        cells = []
-        for value, _ in _LOOKING:
-            found = run_campaign(name, [*fixed, *_set(value)], say)
-            stuck = f"; {found['deadlocks']} deadlocked" if found["deadlocks"] else ""
-            cells.append(missed(found) + stuck)
-        rows.append([f"`{name}`", f"{speed} m/s", *cells])
-    return {"fast_leaders": table(["scenario", "leader", *(text for _, text in _LOOKING)], rows)}
 
 
 def measure_terms(say: Say) -> Dict[str, str]:

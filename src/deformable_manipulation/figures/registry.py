@@ -4,7 +4,14 @@ from dataclasses import dataclass
 from typing import Callable, Dict, Optional, Sequence, Tuple
 
 from deformable_manipulation.benchmarks.subject import SUBJECTS
-from deformable_manipulation.figures import announcements, campaigns, scenarios, seen, worlds
+from deformable_manipulation.figures import (
+    announcements,
+    campaigns,
+    fast_leaders,
+    scenarios,
+    seen,
+    worlds,
+)
 from deformable_manipulation.figures.runs import Say
 
 README = "README.md"
@@ -111,9 +118,9 @@ SUBJECT_LIST: Sequence[Subject] = (
     ),
     Subject(
         {"fast_leaders": SAFETY},
-        "run_campaign SCENARIO --runs N --seed 7 --duration 50 --speed M/S [--set VALUE]",
+        "run_campaign SCENARIO --runs N --seed 31 --duration 50 --speed M/S [OPTIONS]",
         CAMPAIGNS,
-        campaigns.measure_fast_leaders,
+        fast_leaders.measure_fast_leaders,
     ),
     Subject(
         {"announcements": SAFETY},

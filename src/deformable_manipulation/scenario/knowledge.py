@@ -15,6 +15,7 @@ from deformable_manipulation.reading.readers import (
     Report,
     Section,
 )
+from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.controller import ControllerSpec
 
 HONEST, OPPOSITE, DELAYED, SCALED, RANDOM = "honest", "opposite", "delayed", "scaled", "random"
@@ -163,4 +164,17 @@ def check_delay(report: Report, controller: ControllerSpec, knowledge: Knowledge
             "must be below controller.timeout ({:g} s), the age at which a pose counts as "
             "lost".format(controller.timeout),
             show(knowledge.pose_delay),
+        )
+
+
+def check_loads(report: Report, controller: ControllerSpec, knowledge: KnowledgeSpec) -> None:
+    """Limits of loads are judged in a world that tells them, in the pieces of the model."""
+    limits = [name for name in controller.barriers if BARRIERS[name].is_load]
+    if limits and (knowledge.world != OWN or knowledge.refinement > 1):
+        report.add(
+            ("knowledge", "world" if knowledge.world != OWN else "refinement"),
+            "cannot be used with limits of what the object bears, which are not known of such an "
+            "object: {}. Leave them out, or use the world own with refinement 1".format(
+                ", ".join(limits)
+            ),
         )

@@ -150,6 +150,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(knowledge.check_delay, "controller", "knowledge")
+    check(knowledge.check_loads, "controller", "knowledge")
     check(check_correction, "object", "correction")
     check(check_measured_points, "knowledge", "correction")
     check(check_camera, "frame", "controller", "camera")

@@ -53,8 +53,8 @@ class EngineWorld:
         """Seconds since the start."""
         return self.cycle * self._cycle_time
 
-    def set_command(self, agent: int, velocity) -> None:
-        """Velocity (3,) [m/s] of an agent from the next advance on."""
+    def set_command(self, agent: int, velocity, angular_velocity=(0.0, 0.0, 0.0)) -> None:
+        """Velocity (3,) [m/s] of an agent from the next advance on; grips do not turn here."""
         self._commands[agent] = velocity
 
     def advance(self) -> None:
