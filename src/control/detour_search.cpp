@@ -161,10 +161,6 @@ int DetourSearch::go(int from, const Vector3& to) {
 
 //! The shapes with the held point elsewhere that continue the one at a place.
 void DetourSearch::findShapes(const Place& from, const std::vector<Vector3>& positions) {
-  found_.clear();
-  if (from.points.size() != 3 * static_cast<std::size_t>(shapes_->pointCount())) {  // it is another object
-    return;
-  }
   std::vector<Vector3> held;
   for (const Vector3& position : positions) {
     held.insert(held.end(), held_.begin(), held_.end());
@@ -173,6 +169,7 @@ void DetourSearch::findShapes(const Place& from, const std::vector<Vector3>& pos
   shapes_->forget();
   shapes_->setPresent(from.points.data(), correction_.empty() ? nullptr : correction_.data());
   shapes_->find(held);
+  found_.clear();
   std::vector<double> all;
   for (std::size_t i = 0; i < positions.size() && shapes_->known(static_cast<int>(i)); ++i) {
     std::vector<double> points(from.points.size());

@@ -17,7 +17,6 @@ _CAMERA = (
 _MATERIALS: Tuple[Tuple[str, float, float], ...] = (
     ("as assumed", 1.0, 1.0),
     ("20 % softer and heavier", 0.8, 1.2),
-    ("20 % stiffer and lighter", 1.2, 0.8),
 )
 
 

@@ -55,11 +55,7 @@ def summarise(
         "rate": scenario.controller.rate,
         "wall_time": wall_time,
         "min_distance": min_distance,
-        **(
-            {"min_model_distance": _lowest(series.column("model_distance"))}
-            if series.modelled
-            else {}
-        ),
+        **_of_model(series),
         "offset": offset,
         "worst_violation": 0.0 if min_distance is None else max(0.0, offset - min_distance),
         "max_stretch": max_stretch,

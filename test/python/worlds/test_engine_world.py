@@ -13,6 +13,8 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.recording.frame_reader import read_frames
 from deformable_manipulation.recording.run_reader import read_run
+from deformable_manipulation.recording.summary import summarise
+from deformable_manipulation.recording.timeseries import TimeSeries
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import ScenarioError, load_scenario
 from deformable_manipulation.validation.fabric import rectangle
@@ -137,6 +139,7 @@ def test_controllers_run_in_that_world(tmp_path):
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert summary["min_distance"] != summary["min_model_distance"]
     assert abs(summary["min_distance"] - summary["min_model_distance"]) < 0.03
+    assert (summary["max_correction"], summary["disagreeing"]) == (0.0, 0)
     header = (tmp_path / "run" / "timeseries.csv").read_text().splitlines()[0]
     assert "model_distance" in header.split(",")
     frames = read_frames(read_run(tmp_path / "run"))
@@ -214,10 +217,17 @@ def test_a_camera_brings_the_model_to_the_true_rope():
 
 def test_assistants_stop_where_the_model_is_not_that_of_the_object():
     sets = {"correction": "{limit: 0.002, stop: true}", "knowledge.camera_rate": 20}
-    loop = ClosedLoop(scenario(**sets))
+    stopping = scenario(**sets)
+    loop = ClosedLoop(stopping)
     records = [loop.step() for _ in range(200)]
     assert not records[20].model.disagrees
     assert records[-1].model.disagrees
     for decision in records[-1].decisions.values():
         assert decision.status == Status.WAITING
         assert not decision.command.any()
+    series = TimeSeries.of(stopping)
+    for record in records:
+        series.append(record)
+    summary = summarise(stopping, series, 1.0, False, True, "stable")
+    assert summary["max_correction"] > 0.002
+    assert summary["disagreeing"] == sum(record.model.disagrees for record in records) > 50
