@@ -41,6 +41,7 @@ HorizonParameters HorizonParameters::read(const ParameterSection& horizon) {
                                                     {"known", ExpectedLeader::KNOWN}}),
           horizon.number("leader_fade"),
           horizon.number("leader_doubt"),
+          horizon.number("leader_memory"),
           horizon.number("obstacle_doubt"),
           horizon.vector<3>("weights")};
 }

@@ -57,7 +57,7 @@ void Detour::update(const ObservationView& observation, const Traveller& travell
 //! Whether the assistant has been off its place for some time without getting on.
 bool Detour::isHeldOff(const ObservationView& observation, const Traveller& traveller) {
   const Vector3 error = traveller.leader + traveller.place - observation.position(traveller.agent);
-  const bool waits = error.norm() > kFar && traveller.command.norm() < kSlow;
+  const bool waits = search_.fits(observation) && error.norm() > kFar && traveller.command.norm() < kSlow;
   if (!waits || !waits_) {
     since_ = observation.time;
   }

@@ -32,6 +32,16 @@ void Features::take(const ChosenFeatures& chosen, int agents) {
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());
 }
 
+void Features::add(double signed_distance, const Vector3& direction, std::int64_t of,
+                   const std::vector<Vector3>& gradients) {
+  distance.push_back(signed_distance);
+  normal.push_back(direction);
+  obstacle_velocity.push_back(Vector3::Zero());
+  identity.push_back(of);
+  disturbance.push_back(0.0);
+  gradients_.insert(gradients_.end(), gradients.begin(), gradients.end());
+}
+
 void Features::completeLeader(int leader) {
   for (int m = 0; m < size(); ++m) {
     Vector3 rest = normal[m];

@@ -8,11 +8,6 @@ namespace deformable_manipulation {
 namespace control {
 namespace {
 
-// Time constant of the plan in multiples of that of departures in the present cycle. Where another point of the object
-// becomes the nearest at a node, each plan may prefer the one that the last plan has moved away from: taken at once,
-// they would alternate from cycle to cycle.
-constexpr double PLAN_SMOOTHING = 2.0;
-
 //! The section of the controller with barriers that demand h(displaced) >= 0 where they demand dh/dt >= -alpha(h).
 ParameterValue demandingPositions(const ControllerParameters& p) {
   ParameterValue::Mapping controller = *p.values.as<ParameterValue::Mapping>();
@@ -60,7 +55,7 @@ void Horizon::setParameters(const ControllerParameters& p) {
   forecast_->setObstacleDoubt(p.horizon.obstacle_doubt);
   team_ = commandingAll(p, p.horizon.length);
   max_velocity_ = p.max_velocity;
-  change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / (PLAN_SMOOTHING * p.smoothing)) : 1.0;
+  change_ = p.smoothing > 0.0 ? 1.0 - std::exp(-p.cycle_time / p.smoothing) : 1.0;
   weights_at_rest_ = p.weights;
   interval_ = p.horizon.length / p.horizon.nodes;
   times_.resize(p.horizon.nodes);
@@ -79,6 +74,7 @@ void Horizon::reset() {
   departures_.setZero(3 * parameters_.nodes * columns());
   leader_forecast_.reset();
   forecast_->reset();
+  memories_.assign(parameters_.nodes, FeatureMemory());
 }
 
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,
@@ -94,7 +90,7 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   forecast_->look(observation, held_, times_);
   rows_.clear(static_cast<int>(departures_.size()));
   for (int node = 0; node < parameters_.nodes; ++node) {
-    addLimits(node);
+    addLimits(node, observation.time);
   }
   addVelocities();
   weigh();
@@ -157,7 +153,7 @@ void Horizon::hold(int agents) {
 }
 
 //! The barriers at a node, as rows on all departures before it.
-void Horizon::addLimits(int node) {
+void Horizon::addLimits(int node, double time) {
   PredictedState there;
   there.leader = team_.leader;
   there.positions.assign(held_.begin() + static_cast<std::ptrdiff_t>(node) * team_.agents,
@@ -165,6 +161,7 @@ void Horizon::addLimits(int node) {
   there.velocities.assign(there.positions.size(), Vector3::Zero());
   there.shape = forecast_->shape(node);
   forecast_->takeFeatures(node, team_.leader, features_);
+  memories_[node].recall(time, there.positions.data(), features_);
   for (int m = 0; m < features_.size(); ++m) {
     features_.distance[m] -= timeOf(node) * leader_forecast_.doubt(node);
   }

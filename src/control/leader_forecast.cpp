@@ -35,11 +35,13 @@ void LeaderForecast::reset() {
   positions_.assign(nodes + 1, Vector3::Zero());
   records_.clear();
   dropped_ = 0;
+  recent_ = 0.0;
+  seen_.reset();
 }
 
 void LeaderForecast::look(const ObservationView& observation, const PredictedState& predicted) {
   const double start = observation.time + predicted.delay;
-  speed_ = predicted.leaderVelocity().norm();
+  remember(observation.time, predicted.leaderVelocity().norm());
   fade(predicted.leaderVelocity());
   judge(observation.time, observation.position(predicted.leader), predicted.leaderVelocity());
   const bool announced = parameters_.leader != ExpectedLeader::FADING && read(observation.announcement, start);
@@ -54,6 +56,14 @@ void LeaderForecast::look(const ObservationView& observation, const PredictedSta
       positions_[node + 1] += trust_[node] * (announced_[node] - fading_[node]);
     }
   }
+}
+
+//! A leader that was fast lately may be so again.
+void LeaderForecast::remember(double time, double speed) {
+  const double kept = seen_ ? std::exp(-std::max(0.0, time - *seen_) / parameters_.leader_memory) : 0.0;
+  speed_ = speed;
+  recent_ = std::max(speed, kept * recent_);
+  seen_ = time;
 }
 
 //! Displacements by a velocity that fades.
@@ -142,11 +152,11 @@ void LeaderForecast::keep(double start, const Vector3& position) {
 
 double LeaderForecast::doubt(int node) const {
   const double trusted = trust_[node] > 0.0 ? trust_[node] * REMAINDER * ways_[node] / timeOf(node) : 0.0;
-  return parameters_.leader_doubt * ((1.0 - trust_[node]) * speed_ + trusted);
+  return parameters_.leader_doubt * ((1.0 - trust_[node]) * recent_ + trusted);
 }
 
 double LeaderForecast::fastest() const {
-  double fastest = speed_;
+  double fastest = std::max(speed_, (1.0 - trust_.back()) * recent_);
   for (int node = 0; node < parameters_.nodes; ++node) {
     fastest = std::max(fastest, (positions_[node + 1] - positions_[node]).norm() / interval_);
   }

@@ -149,6 +149,7 @@ Mapping horizon() {
           {"leader", "fading"},
           {"leader_fade", 3.0},
           {"leader_doubt", 0.2},
+          {"leader_memory", 12.0},
           {"obstacle_doubt", 0.2},
           {"weights", numbers({1.0, 1.0, 0.1})}};
 }

@@ -20,6 +20,7 @@ constexpr int POSITIONS = 34;
 constexpr int NODES = 8;
 constexpr double LENGTH = 3.0;  // [s]
 constexpr double FADE = 3.0;    // [s]
+constexpr double MEMORY = 5.0;  // [s]
 
 using Way = std::function<Vector3(double)>;
 
@@ -31,7 +32,7 @@ Vector3 path(double time) {
 Vector3 velocityOf(const Way& way, double time) { return (way(time) - way(time - CYCLE)) / CYCLE; }
 
 HorizonParameters parameters(ExpectedLeader leader) {
-  return {LENGTH, NODES, leader, FADE, 0.2, 0.2, Vector3(1.0, 1.0, 0.1)};
+  return {LENGTH, NODES, leader, FADE, 0.2, MEMORY, 0.2, Vector3(1.0, 1.0, 0.1)};
 }
 
 struct Announcement {
@@ -131,6 +132,32 @@ TEST(LeaderForecast, WithoutAnnouncementsTheVelocityFades) {
     EXPECT_NEAR(watched.forecast.doubt(NODES - 1), 0.2 * velocityOf(path, 2.0).norm(), 1e-12);
     EXPECT_NEAR(watched.forecast.fastest(), velocityOf(path, 2.0).norm(), 1e-12);
   }
+}
+
+TEST(LeaderForecast, AFastLeaderIsForgottenSlowly) {
+  LeaderForecast forecast(parameters(ExpectedLeader::FADING));
+  const Vector3 position = Vector3::Zero();
+  ObservationView observation;
+  observation.agents = 1;
+  observation.positions = position.data();
+  PredictedState predicted;
+  predicted.positions.assign(1, position);
+  const auto lookAt = [&](double time, double speed) {
+    observation.time = time;
+    predicted.velocities.assign(1, Vector3(0.0, speed, 0.0));
+    forecast.look(observation, predicted);
+  };
+  lookAt(0.0, 0.3);
+  lookAt(1.0, 0.1);
+  lookAt(5.0, 0.0);
+  EXPECT_NEAR(forecast.doubt(0), 0.2 * 0.3 * std::exp(-5.0 / MEMORY), 1e-12);
+  EXPECT_NEAR(forecast.fastest(), 0.3 * std::exp(-5.0 / MEMORY), 1e-12);
+  EXPECT_EQ(forecast.positions()[NODES], position);
+  lookAt(6.0, 0.25);
+  EXPECT_NEAR(forecast.doubt(0), 0.2 * 0.25, 1e-12);
+  forecast.reset();
+  lookAt(7.0, 0.0);
+  EXPECT_EQ(forecast.doubt(0), 0.0);
 }
 
 TEST(LeaderForecast, WhoDoesNotListenExpectsTheFadingVelocity) {

@@ -32,7 +32,8 @@ struct HorizonParameters {
   int nodes;      //!< number N of times at which it looks
   ExpectedLeader leader;
   double leader_fade;     //!< [s] time constant with which the leader's velocity is expected to fade
-  double leader_doubt;    //!< part of the leader's expected way by which distances may be smaller
+  double leader_doubt;    //!< part of the leader's way at its recent speed by which distances may be smaller
+  double leader_memory;   //!< [s] time constant with which the leader's recent speed is forgotten
   double obstacle_doubt;  //!< part of a measured obstacle's expected way by which it may come nearer
   Vector3 weights;        //!< cost of departing from the nominal velocity per axis
 

@@ -32,7 +32,11 @@ class DetourSearch {
   //! @param distance whose obstacles are where they are at present
   DetourSearch(std::shared_ptr<pbd::RestShapes> shapes, std::shared_ptr<distance::MinimumDistance> distance);
 
+  //! Whether an observed object has as many points as the shapes. Others cannot be searched for.
+  bool fits(const ObservationView& observation) const { return observation.points == shapes_->pointCount(); }
+
   //! Starts a search in an observed state, in which the object should be at rest.
+  //! @param observation that fits
   //! @param agent whose held point moves
   //! @param goal [m] of it
   void start(const ObservationView& observation, int agent, const Vector3& goal, Limits limits);

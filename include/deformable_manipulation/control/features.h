@@ -29,6 +29,9 @@ class Features {
   //! Starts afresh, with gradients of zero.
   void take(const ChosenFeatures& chosen, int agents);
 
+  //! Adds one of an obstacle that stands, with its gradients by all agents.
+  void add(double signed_distance, const Vector3& direction, std::int64_t of, const std::vector<Vector3>& gradients);
+
   //! No features.
   void clear();
 

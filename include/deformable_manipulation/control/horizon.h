@@ -5,6 +5,7 @@
 
 #include "deformable_manipulation/control/barrier.h"
 #include "deformable_manipulation/control/controller_parameters.h"
+#include "deformable_manipulation/control/feature_memory.h"
 #include "deformable_manipulation/control/leader_forecast.h"
 #include "deformable_manipulation/control/object_forecast.h"
 #include "deformable_manipulation/control/safety_filter.h"
@@ -57,7 +58,7 @@ class Horizon {
   void displace();
   void hold(int agents);
   void weigh();
-  void addLimits(int node);
+  void addLimits(int node, double time);
   void addVelocities();
   Eigen::Index variable(int node, int column) const { return 3 * (node * columns() + column); }
   int columns() const { return static_cast<int>(team_.commanded.size()); }
@@ -92,6 +93,7 @@ class Horizon {
   Eigen::VectorXd zero_;
   Eigen::VectorXd reach_;  // [m/s] of departures
   Features features_;
+  std::vector<FeatureMemory> memories_;  // [N]
   ConstraintRows node_rows_;  // on the displacements at a node
   ConstraintRows rows_;       // on the departures
 };

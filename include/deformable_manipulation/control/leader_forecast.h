@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "deformable_manipulation/control/controller_parameters.h"
@@ -26,7 +27,7 @@ class LeaderForecast {
   //! Other parameters; what is known of the announcements stays while the nodes do.
   void setParameters(const HorizonParameters& parameters);
 
-  //! Forgets how well announcements have told the motion.
+  //! Forgets the leader's motion, and how well announcements have told it.
   void reset();
 
   //! Looks ahead from an observed state, to times that count from when the command begins to act.
@@ -38,7 +39,7 @@ class LeaderForecast {
   //! [m/s] By how much faster the leader may come near something than expected, in the mean until a node.
   double doubt(int node) const;
 
-  //! [m/s] The highest speed from now to the last node.
+  //! [m/s] The highest speed from now to the last node; of what is not announced, also the highest one lately.
   double fastest() const;
 
   //! Part of what is announced for a node that is expected, 0 to 1.
@@ -61,6 +62,7 @@ class LeaderForecast {
   };
 
   double timeOf(int node) const { return (node + 1) * interval_; }
+  void remember(double time, double speed);
   void fade(const Vector3& velocity);
   bool read(const AnnouncementView& announcement, double start);
   void judge(double time, const Vector3& position, const Vector3& velocity);
@@ -72,6 +74,8 @@ class LeaderForecast {
   HorizonParameters parameters_{};
   double interval_ = 0.0;           // [s]
   double speed_ = 0.0;              // [m/s] now
+  double recent_ = 0.0;             // [m/s] the highest speed lately, which fades
+  std::optional<double> seen_;      // [s] time of the last look
   std::vector<Vector3> fading_;     // [N] m, displacements
   std::vector<Vector3> announced_;  // [N] m, displacements; those of fading_ where nothing is announced
   std::vector<double> ways_;        // [N] m, as announced

@@ -51,9 +51,17 @@ class HorizonSpec:
     leader_doubt: float = parameter(
         Number("1", at_least=0.0, at_most=10.0),
         "How much smaller than predicted a distance may be, per metre that the leader would travel "
-        "at its present speed until then. Raise it where the leader turns without warning.",
-        default=0.2,
+        "at its recent speed until then. Raise it where the leader turns without warning.",
+        default=0.3,
         live=Live(("horizon_leader_doubt",), 0.0, 10.0),
+        native=True,
+    )
+    leader_memory: float = parameter(
+        Number("s", above=0.0, at_most=1000.0),
+        "Time constant with which the highest recent speed of the leader is forgotten. A leader "
+        "that was fast may be so again after a pause.",
+        default=5.0,
+        live=Live(("horizon_leader_memory",), 0.01, 100.0),
         native=True,
     )
     obstacle_doubt: float = parameter(

@@ -8,7 +8,7 @@ import pytest
 from control_run import Run
 from scipy.signal import butter, filtfilt
 
-from deformable_manipulation.control.status import Status
+from deformable_manipulation.control.status import DetourState, Status
 from deformable_manipulation.scenario.spec import (
     CENTRALISED,
     DECENTRALISED,
@@ -36,6 +36,13 @@ def test_keeps_off_the_ground_while_the_leader_dives(assistants, cooperation):
     # It comes near, and the leader alone stays clear of the ground.
     assert run.h("collision").min() < 0.02
     assert run.positions[:, 0, 2].min() > 0.3
+
+
+def test_an_object_with_other_points_than_the_scenarios_gets_no_detour():
+    """The shapes of a detour have the scenario's points: others must not be written over."""
+    run = dive(1)
+    assert (np.linalg.norm(run.all("error"), axis=-1)[-100:] > 0.05).all()  # it is held off its place
+    assert set(run.all("detour").flat) == {DetourState.NONE}
 
 
 def test_the_object_hits_the_ground_without_the_filter():

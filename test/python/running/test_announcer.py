@@ -63,10 +63,14 @@ def test_who_knows_that_the_leader_will_stop_gives_way_less(leader):
     assert farthest[leader] < 0.7 * farthest["fading"]
 
 
-@pytest.mark.parametrize("kind", [OPPOSITE, RANDOM])
-def test_what_has_misled_changes_nothing(kind):
-    """The leader rests for so long that what it announces falsely has been seen to be false."""
+@pytest.mark.parametrize("kind, largest", [(OPPOSITE, 0.0), (RANDOM, 0.01)])
+def test_what_has_misled_changes_nothing(kind, largest):
+    """The leader rests for so long that what it announces falsely has been seen to be false.
+
+    A random velocity is right by chance at times, and its trust is not quite zero.
+    """
     wrong = decisions(ANNOUNCED, ("knowledge.intent", kind))
     fading = decisions()
-    difference = [np.abs(a.command - b.command).max() for a, b in zip(wrong, fading)]
-    assert max(difference) < 1e-3  # m/s
+    difference = [np.abs(a.position - b.position).max() for a, b in zip(wrong, fading)]
+    assert max(difference) <= largest  # m
+    assert max(each.error_norm for each in fading) > 0.9

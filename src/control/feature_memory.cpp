@@ -1,0 +1,41 @@
+#include "deformable_manipulation/control/feature_memory.h"
+
+#include <algorithm>
+
+namespace deformable_manipulation {
+namespace control {
+
+namespace {
+
+constexpr double SPAN = 0.1;    // [s] a nearest point that is so old is another one by now
+constexpr double SLACK = 0.02;  // [m] by which it then counts as farther away: no row ends suddenly
+
+}  // namespace
+
+void FeatureMemory::recall(double time, const Vector3* held, Features& features) {
+  const auto old = [&](const Kept& kept) {
+    const bool again = std::count(features.identity.begin(), features.identity.end(), kept.identity) > 0;
+    return again || time - kept.time > SPAN || time < kept.time;
+  };
+  kept_.erase(std::remove_if(kept_.begin(), kept_.end(), old), kept_.end());
+  const int found = features.size();
+  for (const Kept& kept : kept_) {
+    const double age = (time - kept.time) / SPAN;
+    double distance = kept.distance + SLACK * age * age;
+    for (int agent = 0; agent < features.agents(); ++agent) {
+      distance += kept.gradients[agent].dot(held[agent] - kept.held[agent]);
+    }
+    features.add(distance, kept.normal, kept.identity, kept.gradients);
+  }
+  for (int m = 0; m < found; ++m) {
+    Kept now{time, features.identity[m], features.distance[m], features.normal[m], {}, {}};
+    for (int agent = 0; agent < features.agents(); ++agent) {
+      now.gradients.push_back(features.gradient(m, agent));
+      now.held.push_back(held[agent]);
+    }
+    kept_.push_back(std::move(now));
+  }
+}
+
+}  // namespace control
+}  // namespace deformable_manipulation
