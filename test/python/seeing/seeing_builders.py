@@ -20,7 +20,7 @@ leader:
   waypoints:
   - {time: 0.0, position: [0.0, 0.0, 0.0]}
   - {time: 5.0, position: [0.0, 0.0, -0.3]}
-controller: {collision: {offset: 0.05}}
+controller: {collision: {offset: 0.05}, horizon: {leader_doubt: 0.0}}
 simulation: {duration: 6.0}
 """
 
