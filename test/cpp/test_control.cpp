@@ -144,14 +144,10 @@ Mapping collision() {
 }
 
 Mapping horizon() {
-  return {{"length", 0.0},
-          {"nodes", 8},
-          {"leader", "fading"},
-          {"leader_fade", 3.0},
-          {"leader_doubt", 0.2},
-          {"leader_memory", 12.0},
-          {"obstacle_doubt", 0.2},
-          {"weights", numbers({1.0, 1.0, 0.1})}};
+  return {{"length", 0.0},         {"nodes", 8},
+          {"leader", "fading"},    {"leader_fade", 3.0},
+          {"leader_doubt", 0.2},   {"leader_memory", 12.0},
+          {"obstacle_doubt", 0.2}, {"weights", numbers({1.0, 1.0, 0.1})}};
 }
 
 Mapping controller(bool exact) {
