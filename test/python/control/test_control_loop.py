@@ -41,7 +41,9 @@ def test_keeps_off_the_ground_while_the_leader_dives(assistants, cooperation):
 def test_an_object_with_other_points_than_the_scenarios_gets_no_detour():
     """The shapes of a detour have the scenario's points: others must not be written over."""
     run = dive(1)
-    assert (np.linalg.norm(run.all("error"), axis=-1)[-100:] > 0.05).all()  # it is held off its place
+    assert (
+        np.linalg.norm(run.all("error"), axis=-1)[-100:] > 0.05
+    ).all()  # it is held off its place
     assert set(run.all("detour").flat) == {DetourState.NONE}
 
 
