@@ -93,8 +93,8 @@ def test_a_clearance_that_no_path_keeps_is_an_error(scenario):
 
 
 def test_a_time_that_is_too_short_is_an_error(scenario):
-    with pytest.raises(NoVariation, match="20 s are too short"):
-        vary(scenario, dataclasses.replace(RANGES, duration=20.0), 0, 0)
+    with pytest.raises(NoVariation, match="10 s are too short"):
+        vary(scenario, dataclasses.replace(RANGES, duration=10.0), 0, 0)
 
 
 def test_a_path_leaves_its_box_never():
