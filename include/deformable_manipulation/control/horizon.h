@@ -94,8 +94,8 @@ class Horizon {
   Eigen::VectorXd reach_;  // [m/s] of departures
   Features features_;
   std::vector<FeatureMemory> memories_;  // [N]
-  ConstraintRows node_rows_;  // on the displacements at a node
-  ConstraintRows rows_;       // on the departures
+  ConstraintRows node_rows_;             // on the displacements at a node
+  ConstraintRows rows_;                  // on the departures
 };
 
 }  // namespace control
