@@ -7,15 +7,16 @@ namespace control {
 
 namespace {
 
-constexpr double SPAN = 0.1;    // [s] a nearest point that is so old is another one by now
-constexpr double SLACK = 0.02;  // [m] by which it then counts as farther away: no row ends suddenly
+constexpr double SPAN = 0.1;            // [s] a nearest point that is so old is another one by now
+constexpr double TIME_ROUNDING = 1e-6;  // [s] of times, which are whole cycles
+constexpr double SLACK = 0.02;          // [m] by which it then counts as farther away: no row ends suddenly
 
 }  // namespace
 
 void FeatureMemory::recall(double time, const Vector3* held, Features& features) {
   const auto old = [&](const Kept& kept) {
     const bool again = std::count(features.identity.begin(), features.identity.end(), kept.identity) > 0;
-    return again || time - kept.time > SPAN || time < kept.time;
+    return again || time - kept.time > SPAN + TIME_ROUNDING || time < kept.time;
   };
   kept_.erase(std::remove_if(kept_.begin(), kept_.end(), old), kept_.end());
   const int found = features.size();

@@ -51,6 +51,9 @@ void ObjectForecast::look(const ObservationView& observation, const std::vector<
 }
 
 void ObjectForecast::reset() {
+  if (shapes_ != nullptr) {
+    shapes_->forget();
+  }
   for (MeasuredObstacle& obstacle : measured_) {
     obstacle.reset();
   }

@@ -62,7 +62,10 @@ class TutorialTest(unittest.TestCase):
     def test_every_command_succeeds(self):
         page = package_share_directory() / "docs" / "tutorial.md"
         follow(page, self.folder, self.run_command, self.launch)
-        self.assertEqual(self.launched, ["my_rope.launch", "my_team.launch", "my_team.launch"])
+        self.assertEqual(
+            self.launched,
+            ["my_rope.launch", "my_view.launch", "my_team.launch", "my_team.launch"],
+        )
 
 
 if __name__ == "__main__":

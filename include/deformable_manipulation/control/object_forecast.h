@@ -32,7 +32,7 @@ class ObjectForecast {
   //! Part of the way of a measured obstacle by which it may come nearer than expected.
   void setObstacleDoubt(double doubt) { obstacle_doubt_ = doubt; }
 
-  //! Forgets how obstacles have moved.
+  //! Forgets how obstacles have moved, and the shapes found.
   void reset();
 
   //! Whether it has to be told how the object follows its held points before it looks ahead.

@@ -87,8 +87,7 @@ def test_after_a_reset_the_same_states_get_the_same_answers(name):
     for _ in range(2):
         runs.append([team.update(each)[names[0]].command for each in observations])
         team.reset()
-    # To rounding: distances and shapes start from what was found last.
-    np.testing.assert_allclose(runs[0], runs[1], rtol=0.0, atol=1e-12)
+    np.testing.assert_array_equal(runs[0], runs[1])
 
 
 def _kept(observation):
