@@ -10,13 +10,27 @@ namespace {
 constexpr double SPAN = 0.1;            // [s] a nearest point that is so old is another one by now
 constexpr double TIME_ROUNDING = 1e-6;  // [s] of times, which are whole cycles
 constexpr double SLACK = 0.02;          // [m] by which it then counts as farther away: no row ends suddenly
+constexpr double SAME = 0.1;  // [1] of gradients and normals: the solution of nearly parallel rows depends on rounding
 
 }  // namespace
 
+//! Whether a row says the same: neighbouring elements of the object share the point between them.
+bool FeatureMemory::isFoundAgain(const Kept& kept, const Features& features) {
+  for (int m = 0; m < features.size(); ++m) {
+    double difference = (features.normal[m] - kept.normal).cwiseAbs().maxCoeff();
+    for (int agent = 0; agent < features.agents(); ++agent) {
+      difference = std::max(difference, (features.gradient(m, agent) - kept.gradients[agent]).cwiseAbs().maxCoeff());
+    }
+    if (features.identity[m] == kept.identity || difference < SAME) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void FeatureMemory::recall(double time, const Vector3* held, Features& features) {
   const auto old = [&](const Kept& kept) {
-    const bool again = std::count(features.identity.begin(), features.identity.end(), kept.identity) > 0;
-    return again || time - kept.time > SPAN + TIME_ROUNDING || time < kept.time;
+    return isFoundAgain(kept, features) || time - kept.time > SPAN + TIME_ROUNDING || time < kept.time;
   };
   kept_.erase(std::remove_if(kept_.begin(), kept_.end(), old), kept_.end());
   const int found = features.size();

@@ -12,11 +12,11 @@ namespace {
 
 const std::vector<Vector3> HERE{Vector3(0.0, 0.0, 1.0), Vector3(0.0, 1.0, 1.0)};
 
-//! Two agents; the second one moves half as much of the feature as the first.
-Features nearest(std::int64_t identity, double distance) {
+//! Two agents; the second one moves a part of the feature.
+Features nearest(std::int64_t identity, double distance, double part = 1.0 / 3.0) {
   Features features;
   features.take({distance::Distances{{}, {0, 0}, {}}}, 2);
-  features.add(distance, Vector3::UnitZ(), identity, {2.0 / 3.0 * Vector3::UnitZ(), 1.0 / 3.0 * Vector3::UnitZ()});
+  features.add(distance, Vector3::UnitZ(), identity, {(1.0 - part) * Vector3::UnitZ(), part * Vector3::UnitZ()});
   return features;
 }
 
@@ -25,14 +25,14 @@ TEST(FeatureMemory, WhatWasNearestStays) {
   Features features = nearest(7, 0.3);
   memory.recall(1.0, HERE.data(), features);
   EXPECT_EQ(features.size(), 1);
-  features = nearest(8, 0.2);
+  features = nearest(8, 0.2, 0.6);
   memory.recall(1.01, HERE.data(), features);
   ASSERT_EQ(features.size(), 2);
   EXPECT_EQ(features.identity[0], 8);  // the nearest is the first
   EXPECT_EQ(features.identity[1], 7);
   EXPECT_NEAR(features.distance[1], 0.3002, 1e-15);
   EXPECT_EQ(features.normal[1], Vector3::UnitZ());
-  EXPECT_EQ(features.gradient(1, 0), 2.0 / 3.0 * Vector3::UnitZ());
+  EXPECT_EQ(features.gradient(1, 1), 1.0 / 3.0 * Vector3::UnitZ());
 }
 
 TEST(FeatureMemory, ItMovesWithTheHeldPoints) {
@@ -40,7 +40,7 @@ TEST(FeatureMemory, ItMovesWithTheHeldPoints) {
   Features features = nearest(7, 0.3);
   memory.recall(1.0, HERE.data(), features);
   const std::vector<Vector3> higher{HERE[0] + Vector3(0.1, 0.0, 0.03), HERE[1] + Vector3(0.0, 0.1, -0.06)};
-  features = nearest(8, 0.2);
+  features = nearest(8, 0.2, 0.6);
   memory.recall(1.01, higher.data(), features);
   ASSERT_EQ(features.size(), 2);
   EXPECT_NEAR(features.distance[1], 0.3002 + 2.0 / 3.0 * 0.03 - 1.0 / 3.0 * 0.06, 1e-15);
@@ -56,12 +56,21 @@ TEST(FeatureMemory, WhatIsFoundAgainIsKnownOnce) {
   EXPECT_EQ(features.distance[0], 0.25);
 }
 
+TEST(FeatureMemory, APointThatNeighboursShareIsKnownOnce) {
+  FeatureMemory memory;
+  Features features = nearest(7, 0.3);
+  memory.recall(1.0, HERE.data(), features);
+  features = nearest(8, 0.3);
+  memory.recall(1.01, HERE.data(), features);
+  EXPECT_EQ(features.size(), 1);
+}
+
 TEST(FeatureMemory, ItForgets) {
   for (const double later : {1.2, 0.5}) {  // after a while, and when time was set back
     FeatureMemory memory;
     Features features = nearest(7, 0.3);
     memory.recall(1.0, HERE.data(), features);
-    features = nearest(8, 0.2);
+    features = nearest(8, 0.2, 0.6);
     memory.recall(later, HERE.data(), features);
     EXPECT_EQ(features.size(), 1) << "at " << later;
   }
@@ -69,7 +78,7 @@ TEST(FeatureMemory, ItForgets) {
   Features features = nearest(7, 0.3);
   memory.recall(1.0, HERE.data(), features);
   memory.reset();
-  features = nearest(8, 0.2);
+  features = nearest(8, 0.2, 0.6);
   memory.recall(1.01, HERE.data(), features);
   EXPECT_EQ(features.size(), 1);
 }

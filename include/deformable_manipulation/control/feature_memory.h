@@ -35,6 +35,8 @@ class FeatureMemory {
     std::vector<Vector3> held;       // [A] m
   };
 
+  static bool isFoundAgain(const Kept& kept, const Features& features);
+
   std::vector<Kept> kept_;
 };
 

@@ -66,7 +66,7 @@ def read_field(path, is_free_unknown: bool) -> Field:
 def _fault(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray) -> str:
     """What is wrong with the arrays; empty if nothing is."""
     for key, array in zip(KEYS, (distances, origin, spacing)):
-        if array.dtype.kind not in "fiu":
+        if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
             return "{} holds no numbers".format(key)
     if distances.ndim != 3 or min(distances.shape) < 2 or distances.size > MOST_VALUES:
         return "distances have the shape {}; it must be (X, Y, Z), each 2 or more".format(

@@ -9,7 +9,7 @@ import numpy as np
 from deformable_manipulation._pbd import NonFiniteState
 from deformable_manipulation.identification.parameters import Parameters
 from deformable_manipulation.replaying.difference import difference
-from deformable_manipulation.replaying.measured_shapes import MeasuredShapes
+from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, MeasuredShapesError
 from deformable_manipulation.replaying.replay import Replay, ReplayOptions
 
 _SAMPLES = 0.05  # s between the shapes that are compared: neighbours tell the same
@@ -110,7 +110,7 @@ def windows_of(
     """Cut recordings into windows of a length [s]; what is left at an end is not used.
 
     Raises:
-        MeasuredShapesError: a recording does not fit the object.
+        MeasuredShapesError: a recording does not fit the object, or no window has three shapes.
     """
     windows = []
     for number, shapes in enumerate(recordings):
@@ -120,4 +120,9 @@ def windows_of(
             part = shapes.between(start, start + length)
             if len(part.time) > 2:
                 windows.append(Window(number, Replay(parameters.spec, part, options)))
+    if not windows:
+        raise MeasuredShapesError(
+            f"no window of {length:g} s has three shapes or more; use a longer --window, or longer "
+            "recordings"
+        )
     return windows

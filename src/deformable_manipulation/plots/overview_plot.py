@@ -87,7 +87,8 @@ def snapshot_times(run: RunData) -> List[float]:
     """Times [s] that show what a run is about, in their order and well apart."""
     time = run.time
     moments = [float(time[0])]
-    errors = [(np.nanmax(each.error_norm), each) for each in run.assistants if len(each.time)]
+    known = [each for each in run.assistants if np.isfinite(each.error_norm).any()]
+    errors = [(np.nanmax(each.error_norm), each) for each in known]
     if errors:
         _, worst = max(errors, key=lambda pair: pair[0])
         moments.append(float(worst.time[np.nanargmax(worst.error_norm)]))

@@ -103,6 +103,9 @@ def _error(path, mistakes: Sequence[str]) -> MeasuredShapesError:
 
 
 def _header_mistakes(names: Sequence[str]) -> Iterator[str]:
+    if not names:
+        yield "line 1 is empty; it must name the columns"
+        return
     if names[0].strip() != "time":
         yield f"column 1 is named '{names[0]}'; it must be time [s]"
     if len(names) < 7 or len(names) % 3 != 1:

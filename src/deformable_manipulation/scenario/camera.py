@@ -102,8 +102,8 @@ class _CameraSection(Section):
 CAMERA = _CameraSection(CameraSpec)
 
 
-def check_camera(report: Report, frame: str, controller, camera) -> None:
-    """A rate that the cycles can follow, and a frame of its own."""
+def check_camera(report: Report, frame: str, obstacles, controller, camera) -> None:
+    """A rate that the cycles can follow, a frame of its own, and obstacles that it can show."""
     if camera is None:
         return
     if camera.rate > controller.rate:
@@ -114,6 +114,35 @@ def check_camera(report: Report, frame: str, controller, camera) -> None:
         )
     if camera.frame == frame:
         report.add(("camera", "frame"), "must not be the fixed frame", show(frame))
+    for index, obstacle in enumerate(obstacles):
+        if obstacle.is_live and obstacle.topic == camera.topic:
+            _check_shown(report, ("obstacles", str(index)), obstacle, camera)
+
+
+def _check_shown(report: Report, path, obstacle, camera) -> None:
+    """What a camera's images can be used for."""
+    if obstacle.kind != "live_cloud":
+        report.add(
+            (*path, obstacle.kind),
+            "must not be the topic of the camera, which has points of surfaces alone; use "
+            "live_cloud, or another topic",
+            show(obstacle.topic),
+        )
+    pixels = camera.width * camera.height
+    if obstacle.least_points > pixels:
+        report.add(
+            (*path, "least_points"),
+            "must be at most {}, the pixels of the camera".format(pixels),
+            show(obstacle.least_points),
+        )
+    if obstacle.timeout * camera.rate <= 1.0:
+        report.add(
+            (*path, "timeout"),
+            "must be above {:g} s, the time from one image of the camera to the next".format(
+                1.0 / camera.rate
+            ),
+            show(obstacle.timeout),
+        )
 
 
 def check_live_obstacles(report: Report, obstacles, controller) -> None:

@@ -153,7 +153,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(knowledge.check_loads, "controller", "knowledge")
     check(check_correction, "object", "correction")
     check(check_measured_points, "knowledge", "correction")
-    check(check_camera, "frame", "controller", "camera")
+    check(check_camera, "frame", "obstacles", "controller", "camera")
     check(check_live_obstacles, "obstacles", "controller")
     check(check_presence, "obstacles")
     check(check_knowledge, "obstacles", "knowledge")
