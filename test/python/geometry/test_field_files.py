@@ -1,5 +1,7 @@
 """Files with grids of distances."""
 
+import zipfile
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,11 @@ def test_files_that_are_none(tmp_path):
     np.save(tmp_path / "field.npy", GRID)
     with pytest.raises(FieldError, match="no archive"):
         read_field(tmp_path / "field.npy", True)
+    with zipfile.ZipFile(tmp_path / "field.npz", "w") as archive:
+        for key in CORRECT:
+            archive.writestr(f"{key}.npy", b"hello")
+    with pytest.raises(FieldError, match="distances holds no numbers"):
+        read_field(tmp_path / "field.npz", True)
     np.savez(tmp_path / "field.npz", **CORRECT)
     data = (tmp_path / "field.npz").read_bytes()
     for end in range(0, len(data), 40):

@@ -16,7 +16,11 @@ from deformable_manipulation.identification.least_squares import fit
 from deformable_manipulation.identification.parameters import AIM, MATERIAL, Parameters
 from deformable_manipulation.identification.problem import Problem, windows_of
 from deformable_manipulation.identification.workers import worker_map
-from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, write_measured_shapes
+from deformable_manipulation.replaying.measured_shapes import (
+    MeasuredShapes,
+    MeasuredShapesError,
+    write_measured_shapes,
+)
 from deformable_manipulation.replaying.replay import ReplayOptions
 
 GUESS = dataclasses.replace(
@@ -32,6 +36,11 @@ def recording():
 
 def parameters_of(*material, grips=0):
     return Parameters(GUESS, material, grips)
+
+
+def test_windows_too_short_for_three_shapes_are_an_error(recording):
+    with pytest.raises(MeasuredShapesError, match="no window of 0.001 s has three shapes"):
+        windows_of([recording], parameters_of("young_modulus"), OPTIONS, 0.001)
 
 
 def test_stiffness_and_viscosity_are_found_from_afar(recording):

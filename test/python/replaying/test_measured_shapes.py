@@ -46,6 +46,7 @@ def test_missing_points_are_interpolated_over_time():
     "text, mistake",
     [
         ("", "is empty"),
+        ("\n", "line 1 is empty; it must name the columns"),
         ("t" + HEADER[4:] + "0,1,2,3,4,5,6\n" * 2, "must be time"),
         ("time,x@0,y@0,z@0\n", "two or more points"),
         (HEADER.replace("y@0.5", "y@0.6"), "columns 5 to 7"),

@@ -44,6 +44,8 @@ def problems(*overrides):
             ("obstacles.1.leave_out.shapes", "[{frame: arm, start: [0, 0, 0]}]"),
             "radius: is missing",
         ),
+        (("obstacles.1.least_points", "60000"), "must be at most 51200, the pixels of the camera"),
+        (("obstacles.1.timeout", "0.05"), "must be above 0.0666667 s, the time from one image"),
         (("obstacles.0.real", "false"), "must not be false where known is, too"),
         (("camera.rate", "200"), "must be at most controller.rate (100 Hz)"),
         (("camera.target", "[1.9, 1.75, 0]"), "must not be straight above or below"),
@@ -55,6 +57,12 @@ def problems(*overrides):
 )
 def test_mistakes(override, complaint):
     assert complaint in problems(override)
+
+
+def test_the_camera_shows_points_of_surfaces_alone():
+    field = "{name: map, live_field: camera/points, spacing: 0.05, unknown: free}"
+    complaint = problems(("obstacles.1", field))
+    assert "obstacles.1.live_field" in complaint and "use live_cloud" in complaint
 
 
 def test_every_mistake_is_found_at_once():
