@@ -51,7 +51,7 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_displays(scenario), *_clouds(scenario)],
+            "Displays": [_grid(low, high, flat), *_DISPLAYS, *_clouds(scenario)],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
@@ -110,12 +110,6 @@ _DISPLAYS = (
         "Value": False,
     },
 )
-
-
-def _displays(scenario):
-    """With the axes of the grips, where these turn."""
-    axes = {**_DISPLAYS[-1], "Enabled": scenario.controller.turns}
-    return [*_DISPLAYS[:-1], {**axes, "Value": scenario.controller.turns}]
 
 
 # The first is the one in the hand: it drags markers, and moves the camera elsewhere.
