@@ -70,9 +70,11 @@ class FabricSpec(ObjectSpec):
     jacobian = "perturbed_copies"
     disturbance_filter = 0.0
     horizon_length = 0.0
-    # A fold that snaps moves the nearest point by some millimetres before anything can answer.
+    # A fold that snaps moves the nearest point by some millimetres before anything can answer, and
+    # not every snap shows in the copies before.
     collision_margin = 0.01
     collision_speed_margin = 0.2
+    collision_snap_margin = 0.01
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"

@@ -113,6 +113,7 @@ class RodSpec(ObjectSpec):
     horizon_length = 3.0
     collision_margin = 0.002
     collision_speed_margin = 0.0
+    collision_snap_margin = 0.0
     has_joints = True
     is_surface = False
     rviz_example = "rope_one_assistant"

@@ -17,8 +17,8 @@ class ObjectSpec(ABC):
         jacobian: where its gradients come from, unless the scenario says so.
         disturbance_filter: time constant [s] of the disturbance observer, likewise.
         horizon_length: how far [s] its controllers look ahead, likewise.
-        collision_margin, collision_speed_margin: what is kept beyond the offset [m], and per speed
-            of the leader [s], likewise.
+        collision_margin, collision_speed_margin, collision_snap_margin: what is kept beyond the
+            offset [m], per speed of the leader [s], and at most where copies part [m], likewise.
         has_joints: whether it has joints, which ``simulation.solver`` is for.
         is_surface: whether it is made of triangles, and else a line of its points.
         rviz_example: the scenario whose RViz configuration shows this kind.
@@ -30,6 +30,7 @@ class ObjectSpec(ABC):
     horizon_length: ClassVar[float]
     collision_margin: ClassVar[float]
     collision_speed_margin: ClassVar[float]
+    collision_snap_margin: ClassVar[float]
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]
