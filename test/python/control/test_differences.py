@@ -71,7 +71,7 @@ def test_copies_that_follow_do_not_part(setting):
 
 @pytest.mark.parametrize("snapped", [[5], [0]])
 def test_a_copy_that_has_snapped_parts_from_the_others(setting, snapped):
-    """Whether a copy has the new shape already, or the object has and all copies are left behind."""
+    """A copy has the new shape already, or the object has and all copies are left behind."""
     body, obstacle, positions = setting
     directions = BOTH_SIDES
     displaced = np.repeat([-1, 1, 2], [1, len(directions), len(directions)])
