@@ -59,7 +59,7 @@ EPILOG = """examples:
   run_scenario output/fast/worst.yaml      # repeats the worst run
 
 The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
-deadlocked, and no program failed; 3 otherwise.
+deadlocked, no program failed, and no assistant waited for most of a run; 3 otherwise.
 """
 _FASTEST = 2.0  # m/s, of a leader
 _LONGEST = 1e5  # s

@@ -30,6 +30,9 @@ EXAMPLES = """examples:
   run_scenario rope_one_assistant --no-safety
   run_scenario rope_one_assistant --set simulation.duration=20 \\
       --set controller.collision.offset=0.1
+
+exit status: 0 the run was done to its end, whatever became of its limits (the summary tells); 1 it
+could not be done; 2 wrong usage. Use run_campaign where missed limits shall make a script fail.
 """
 
 

@@ -135,7 +135,11 @@ def test_a_camera_that_sees_nothing_stops_the_assistant():
     loop = ClosedLoop(seen_block(camera__nearest=5.0, camera__farthest=6.0))
     decisions = [loop.step().decisions["assistant_1"] for _ in range(20)]
     assert {each.status for each in decisions} == {Status.WAITING}
-    assert "obstacle 'seen' is lost: nothing has come yet on camera/points" in decisions[-1].text
+    reason = decisions[-1].reason
+    assert reason in decisions[-1].text
+    assert "obstacle 'seen' is lost: nothing has come yet on camera/points" in reason
+    assert "it has 0 points of which something can be made; 100 at least are needed" in reason
+    assert "change the camera's position, target, nearest or farthest" in reason
 
 
 def test_the_drawn_obstacle_is_the_one_that_is_seen():

@@ -228,6 +228,6 @@ def test_assistants_stop_where_the_model_is_not_that_of_the_object():
     series = TimeSeries.of(stopping)
     for record in records:
         series.append(record)
-    summary = summarise(stopping, series, 1.0, False, True, "stable")
+    summary = summarise(stopping, series, 1.0, False, True, "stable", {})
     assert summary["max_correction"] > 0.002
     assert summary["disagreeing"] == sum(record.model.disagrees for record in records) > 50
