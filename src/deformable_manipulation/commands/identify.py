@@ -8,7 +8,11 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import command_parser, folder_name, override
+from deformable_manipulation.commands.arguments import (
+    add_set_argument,
+    command_parser,
+    folder_name,
+)
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
@@ -133,14 +137,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         required=True,
         help="YAML file with a section object to begin with, or the name of a scenario",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the file, as in object.damping=0; can be repeated",
-    )
+    add_set_argument(parser, "replace a value of the file, as in object.damping=0")
     parser.add_argument(
         "--fit",
         metavar="NAMES",

@@ -17,6 +17,7 @@ from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
+from deformable_manipulation.worlds.factory import make_world, true_scenario
 
 _LENGTHS = ("offset", "margin")  # that barriers keep
 _SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
@@ -24,6 +25,7 @@ _LARGE_PERTURBATION = 0.25  # of the free length between two agents
 _LARGE_MARGIN = 0.05  # of the free length between two agents
 _PATH_SAMPLES = 1000  # between waypoints, of which there are not many
 _ROUNDING = 1.0 + 1e-6
+_RESTS = {"stable": "at rest", "moving": "in motion", "balanced": "in an unstable balance"}
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,8 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
         _pbd.ParameterError: the object does not settle.
         ValueError: an obstacle's shape is invalid.
         ScenarioError: the object at rest bears more than a limit allows.
+        WorldError: the engine of ``knowledge.world`` is missing.
+        RuntimeError: its simulation broke down.
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
@@ -61,11 +65,22 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
     facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
+    if not scenario.knowledge.perfect:
+        facts.append(_true_object(scenario))
     warnings += _start_too_near(scenario, start)
     warnings += _path_warnings(scenario)
     warnings += _margin_warnings(scenario)
     warnings += scenario.object.warnings()
     return Inspection(tuple(facts), tuple(warnings))
+
+
+def _true_object(scenario: Scenario) -> str:
+    """What simulates the true object, and how it rests at the start; its engine must be there."""
+    truth = true_scenario(scenario)
+    world = make_world(truth, copies=False)
+    return "the true object, in the world {}, has {} particles and starts {}".format(
+        scenario.knowledge.world, truth.object.particles, _RESTS[world.rest]
+    )
 
 
 def _bounds(points: np.ndarray) -> Tuple[str, str]:

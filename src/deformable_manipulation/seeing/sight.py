@@ -9,7 +9,6 @@ from deformable_manipulation.seeing.depth_camera import DepthCamera, camera_rota
 from deformable_manipulation.seeing.live_map import LiveMap, Seen
 from deformable_manipulation.seeing.seen_obstacles import live_obstacles
 
-
 _ADVICE = (
     "change the camera's position, target, nearest or farthest, or the obstacle's least_points"
 )

@@ -43,6 +43,16 @@ def test_windows_too_short_for_three_shapes_are_an_error(recording):
         windows_of([recording], parameters_of("young_modulus"), OPTIONS, 0.001)
 
 
+def test_time_in_which_nothing_was_measured_is_no_window(recording):
+    """Of a pause of a million windows, none is looked at."""
+    time = np.concatenate((recording.time, recording.time + 1e6))
+    points = np.concatenate((recording.points, recording.points))
+    paused = MeasuredShapes(time, recording.arc_lengths, points)
+    windows = windows_of([paused], parameters_of("young_modulus"), OPTIONS, 0.5)
+    assert [round(each.replay.shapes.time[0], 2) for each in windows[:3]] == [0.0, 0.5, 1.0]
+    assert 4 <= len(windows) <= 6
+
+
 def test_stiffness_and_viscosity_are_found_from_afar(recording):
     parameters = parameters_of("young_modulus", "bending_retardation_time")
     windows = windows_of([recording], parameters, OPTIONS, 1.49)
