@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from deformable_manipulation.campaign.leader_paths import PLACES, NoPath, random_path
-from deformable_manipulation.campaign.terrain import random_obstacle
+from deformable_manipulation.campaign.reasons import Reasons
+from deformable_manipulation.campaign.terrain import random_obstacles
 from deformable_manipulation.control.overload import has_load_limits
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
@@ -57,26 +58,27 @@ def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
     Raises:
         NoVariation: none was found that can be started.
     """
-    reason = ""
+    reasons = Reasons()
     for attempt in range(_ATTEMPTS):
         random = np.random.default_rng([seed, index, attempt])
         try:
             varied = _checked(_draw(scenario, ranges, random), index)
         except (NoPath, ScenarioError) as error:
-            reason = str(error)
+            reasons.add(error)
             continue
-        reason = _problem_at_start(varied)
-        if not reason:
+        problem = _problem_at_start(varied)
+        if not problem:
             return varied
+        reasons.add(problem)
     raise NoVariation(
-        f"run {index}: none of {_ATTEMPTS} random variations can be started: {reason}"
+        f"run {index}: none of {_ATTEMPTS} random variations can be started; {reasons}"
     )
 
 
 def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
     obstacles = scenario.obstacles
     if ranges.terrain:
-        obstacles = tuple(random_obstacle(obstacle, random) for obstacle in obstacles)
+        obstacles = random_obstacles(obstacles, random)
     drawn = dataclasses.replace(
         scenario,
         object=scenario.object.with_random_material(lambda: _factor(ranges.material, random)),

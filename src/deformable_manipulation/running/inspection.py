@@ -8,13 +8,15 @@ import numpy as np
 
 from deformable_manipulation.control.overload import refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.distance.factory import make_known_distance, make_minimum_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.obstacles.spec import obstacle_corners
 from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Number
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.seeing.seen_obstacles import live_obstacles
+from deformable_manipulation.seeing.sight import Sight
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
 from deformable_manipulation.worlds.factory import make_world, true_scenario
@@ -64,7 +66,12 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
             warnings += _unlikely_size(obstacle, corners, size)
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
-    facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
+    sight = Sight(scenario) if live_obstacles(scenario) else None
+    observer = Observer(scenario, simulation, make_known_distance(scenario), False, sight)
+    observer.look()  # as in the first cycle, after which the controllers see obstacles
+    facts += _barriers(scenario, observer)
+    if sight is not None:
+        warnings += _unseen(scenario, sight)
     if not scenario.knowledge.perfect:
         facts.append(_true_object(scenario))
     warnings += _start_too_near(scenario, start)
@@ -99,7 +106,7 @@ def _extent_of(obstacle, corners: np.ndarray) -> str:
 
 
 def _barriers(scenario: Scenario, observer: Observer) -> Iterator[str]:
-    """Each barrier in use: the limits it keeps, and the h of each assistant at the start."""
+    """Each barrier in use: its limits, and the h of each assistant at the start, as it knows it."""
     observation = observer.observe()
     starts = {}
     for names in teams(scenario):
@@ -145,6 +152,16 @@ def _start_too_near(scenario: Scenario, start: float) -> Iterator[str]:
                 1e3 * start, 1e3 * offset
             )
         )
+
+
+def _unseen(scenario: Scenario, sight: Sight) -> Iterator[str]:
+    """Obstacles of which the simulated camera shows nothing at the start."""
+    for index in live_obstacles(scenario):
+        refusal = sight.refusal(index)
+        if refusal:
+            yield "obstacle {}: {}. The assistants stand still until it is seen".format(
+                scenario.obstacles[index].name, refusal
+            )
 
 
 def _unseen_near_grips(scenario: Scenario, obstacle) -> Iterator[str]:
