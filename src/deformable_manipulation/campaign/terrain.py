@@ -7,7 +7,7 @@ from typing import Dict, Sequence, Tuple, TypeVar
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Quaternion
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle, ObstacleSpec, PolygonObstacle
 
@@ -39,14 +39,15 @@ def _moved_as_one(
 ) -> Tuple[ObstacleSpec, ...]:
     """The obstacles shifted along the level axes, and turned about their midst."""
     shift, turn = _random_move(random)
-    real = [each.translation for each in obstacles if each.real]
-    midst = np.append(np.mean(real, axis=0)[:2], 0.0)
+    midst = np.mean([each.translation for each in obstacles if each.real], axis=0)
+
+    def place(translation: Vector) -> Vector:
+        x, y, z = np.subtract(translation, midst).tolist()
+        x, y, z = (midst + rotate(turn, (x, y, z)) + shift).tolist()
+        return x, y, z
+
     return tuple(
-        each.at(
-            tuple((midst + rotate(turn, np.subtract(each.translation, midst)) + shift).tolist()),
-            _product(turn, each.rotation),
-        )
-        for each in obstacles
+        each.at(place(each.translation), _product(turn, each.rotation)) for each in obstacles
     )
 
 

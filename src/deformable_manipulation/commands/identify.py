@@ -108,13 +108,14 @@ def _write(folder: Path, found, recordings: Sequence[str], windows: int) -> None
     )
 
     for name, value, spread in values(found):
-        print(f"{name:32} {value:>16}  +- {spread}")
+        print(f"{name:32} {value:>16}  {spread}")
     for sentence in statements(found):
         print(sentence)
     numbers = {
         "parameters": found.parameters.names,
         "vector": list(map(float, found.fit.vector)),
         "deviations": [None if math.isnan(x) else float(x) for x in found.fit.deviations],
+        "at_bounds": found.parameters.at_bounds(found.fit.vector).tolist(),
         "errors": {key: None if math.isnan(x) else x for key, x in found.errors.items()},
         "left_out": found.left_out,
     }
