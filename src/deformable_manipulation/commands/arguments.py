@@ -1,6 +1,7 @@
 """Arguments that several commands have in common."""
 
 import argparse
+import math
 import re
 from pathlib import Path
 from typing import List, Sequence, Tuple
@@ -109,3 +110,14 @@ def times_of(text: str) -> Sequence[float]:
             f"'{text}' is not a list of times: use numbers >= 0 and commas, as in 30,60,130"
         )
     return times
+
+
+def number(text: str) -> float:
+    """A finite number; raises argparse.ArgumentTypeError where it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return value

@@ -11,6 +11,7 @@ from deformable_manipulation.commands.arguments import (
     add_set_argument,
     command_parser,
     folder_name,
+    number,
 )
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
@@ -147,7 +148,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--from",
         dest="start",
         metavar="T",
-        type=float,
+        type=number,
         default=float("-inf"),
         help="time [s] at which to begin (default: the first)",
     )
@@ -155,7 +156,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--to",
         dest="end",
         metavar="T",
-        type=float,
+        type=number,
         default=float("inf"),
         help="time [s] at which to end (default: the last)",
     )

@@ -15,6 +15,7 @@ from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, Me
 _USUAL_STEP = 0.01  # s
 _FRAMES_OF_VELOCITY = 5
 _LENGTH_TOLERANCE = 1.001
+_LEAST_LENGTH = 1e-6  # of a segment, in the first shape
 _LONGEST_STEP = 0.1  # s, of one call: in between, the command can be interrupted
 _LONGEST_GAP = 60.0  # s, between two shapes
 
@@ -59,6 +60,13 @@ class Replay:
             raise MeasuredShapesError(str(error)) from error
         self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
         self._start = self._first_state()
+        between = np.linalg.norm(np.diff(self._start[0], axis=0), axis=1)
+        if between.min() < _LEAST_LENGTH * spec.length / spec.segments:
+            place = self._ends[int(between.argmin())]
+            raise MeasuredShapesError(
+                f"the first shape has no length at {place:.3g} m along the object: neighbouring "
+                "points are at the same place"
+            )
 
     def run(self, spec: RodSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
         """Where the object should have been.
@@ -112,9 +120,10 @@ class Replay:
 
     def _along(self, values: np.ndarray) -> np.ndarray:
         """Values (M, 3) at the measured points, taken to the ends of the segments."""
-        if len(values) < 3:
-            return np.stack(
-                [np.interp(self._ends, self.shapes.arc_lengths, v) for v in values.T], axis=1
+        if len(values) == 2:  # a straight line, beyond both points, too
+            first, last = self.shapes.arc_lengths
+            return values[0] + np.outer(
+                (self._ends - first) / (last - first), values[1] - values[0]
             )
         spline = CubicSpline(self.shapes.arc_lengths, values, bc_type="natural")
         inside = np.clip(self._ends, *self.shapes.arc_lengths[[0, -1]])

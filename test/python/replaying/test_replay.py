@@ -123,6 +123,23 @@ def test_wrong_grips_are_refused(shapes, options, mistake):
         Replay(ROPE, shapes, ReplayOptions(**options))
 
 
+def test_two_points_make_a_straight_rope(shapes):
+    few = MeasuredShapes(shapes.time, shapes.arc_lengths[[0, 4]], shapes.points[:, [0, 4]])
+    replay = Replay(ROPE, few, ReplayOptions(held=((0,), (1,))))
+    start = replay._start[0]
+    assert np.linalg.norm(start[-1] - few.points[0, 1]) > 0.3  # it goes on beyond the last point
+    assert np.linalg.norm(np.diff(start, 2, axis=0), axis=1).max() < 1e-12
+    assert np.isfinite(replay.run(ROPE)).all()
+
+
+def test_points_at_the_same_place_are_refused(shapes):
+    points = np.zeros_like(shapes.points)
+    points[..., 0] = 1.0
+    same = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+    with pytest.raises(MeasuredShapesError, match="the first shape has no length at 0 m along"):
+        Replay(ROPE, same, ReplayOptions(held=((0,), (8,))))
+
+
 def test_an_object_too_coarse_for_its_grips_is_refused(shapes):
     coarse = dataclasses.replace(ROPE, segments=2)
     with pytest.raises(MeasuredShapesError, match="two grippers hold segment 0: use more segments"):
