@@ -15,7 +15,6 @@ from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, Me
 _USUAL_STEP = 0.01  # s
 _FRAMES_OF_VELOCITY = 5
 _LENGTH_TOLERANCE = 1.001
-_LEAST_LENGTH = 1e-6  # of a segment, in the first shape
 _LONGEST_STEP = 0.1  # s, of one call: in between, the command can be interrupted
 _LONGEST_GAP = 60.0  # s, between two shapes
 
@@ -60,13 +59,6 @@ class Replay:
             raise MeasuredShapesError(str(error)) from error
         self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
         self._start = self._first_state()
-        between = np.linalg.norm(np.diff(self._start[0], axis=0), axis=1)
-        if between.min() < _LEAST_LENGTH * spec.length / spec.segments:
-            place = self._ends[int(between.argmin())]
-            raise MeasuredShapesError(
-                f"the first shape has no length at {place:.3g} m along the object: neighbouring "
-                "points are at the same place"
-            )
 
     def run(self, spec: RodSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
         """Where the object should have been.

@@ -168,7 +168,7 @@ def test_npy(shape, tmp_path):
     "array, told",
     [
         (np.zeros(3), "its size is 3; it must be N x 3"),
-        (np.zeros((3, 2)), "must be .points, 3."),
+        (np.zeros((3, 2)), "must be N x 3"),
         (np.array([["a", "b", "c"]]), "no array of numbers"),
         (np.zeros((0, 3)), "there is no point in it$"),
         (np.full((1_000_000, 3), np.nan), "only 1000000 that are not finite"),

@@ -133,11 +133,12 @@ def test_two_points_make_a_straight_rope(shapes):
 
 
 def test_points_at_the_same_place_are_refused(shapes):
-    points = np.zeros_like(shapes.points)
-    points[..., 0] = 1.0
-    same = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
-    with pytest.raises(MeasuredShapesError, match="the first shape has no length at 0 m along"):
-        Replay(ROPE, same, ReplayOptions(held=((0,), (8,))))
+    for frame, mistake in ((0, "points 7 and 8 are at .* first shape"), (60, "at 0.6 s")):
+        points = shapes.points.copy()
+        points[frame, 8] = points[frame, 7]
+        same = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+        with pytest.raises(MeasuredShapesError, match=mistake):
+            Replay(ROPE, same, ReplayOptions())
 
 
 def test_an_object_too_coarse_for_its_grips_is_refused(shapes):
