@@ -65,7 +65,7 @@ def grips_of(
         if not lengths.all():
             time = shapes.time[int(lengths.argmin())]
             raise MeasuredShapesError(
-                f"points {first} and {last}, which a gripper holds, are at the same place at {time:g} s"
+                f"points {first} and {last} of a gripper are at the same place at {time:g} s"
             )
         tangents /= lengths
         beyond = (particle + 0.5) * length / segments - shapes.arc_lengths[first]
