@@ -9,6 +9,7 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.obstacles.spec import are_as_known
 from deformable_manipulation.recording.timeseries import TimeSeries, vector_columns
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
@@ -182,7 +183,7 @@ def _is_free(scenario, distance) -> bool:
 
 def _true_margins(scenario, series: TimeSeries, barrier: str) -> np.ndarray:
     """h [m] of a barrier: as the controllers know it, or of the true distance if they do not."""
-    if barrier == "collision" and not all(each.known and each.real for each in scenario.obstacles):
+    if barrier == "collision" and not are_as_known(scenario.obstacles):
         return series.column("distance") - scenario.controller.collision.offset
     return _of_assistants(series, f"h_{barrier}")
 

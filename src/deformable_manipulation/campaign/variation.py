@@ -11,9 +11,10 @@ from deformable_manipulation.campaign.reasons import Reasons
 from deformable_manipulation.campaign.terrain import random_obstacles
 from deformable_manipulation.control.overload import has_load_limits
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
+from deformable_manipulation.motion.obstacle_motion import obstacle_places
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
+from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
@@ -164,9 +165,8 @@ def _clearance(scenario: Scenario):
 
 def _problem_at_start(scenario: Scenario) -> str:
     """Why nobody would start so; empty: it is fine."""
-    distance = make_minimum_distance(scenario)
-    MovingObstacles(scenario).move(distance, 0.0)
-    lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
+    simulation = make_simulation(scenario)
+    lowest = TrueDistance(scenario, simulation).of(simulation.points()[:1])
     if lowest < scenario.controller.collision.offset + _SPARE:
         return "the object starts too close to the obstacles"
     if has_load_limits(scenario):

@@ -8,11 +8,12 @@ import numpy as np
 
 from deformable_manipulation.control.overload import refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.factory import make_known_distance, make_minimum_distance
+from deformable_manipulation.distance.factory import make_known_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.obstacles.spec import obstacle_corners
 from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Number
+from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.seeing.seen_obstacles import live_obstacles
@@ -50,10 +51,10 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
-    distances = make_minimum_distance(scenario)
-    start = float(distances.compute(points[:1]).minimum[0])
+    truth = TrueDistance(scenario, simulation)
+    start = truth.of(points[:1])
     size = float(np.ptp(points[0], axis=0).max())
-    facts, warnings = [], list(getattr(distances, "warnings", ()))
+    facts, warnings = [], list(truth.warnings)
     facts.append("at the start the object reaches from {} to {} m".format(*_bounds(points[0])))
     warnings += filter(None, (simulation.rest_warning, simulation.softness))
     for obstacle in scenario.obstacles:
