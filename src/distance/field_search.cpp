@@ -69,17 +69,24 @@ FieldSample FieldSearch::within(const CellExpansion& f, const Vector3& beyond) c
   return {distance, (f.value * along_border + beyond) / distance};
 }
 
-double FieldSearch::lowerBound(const Corners<3>& corners) const {
-  Vector3 low = corners[0], high = corners[0], sum = Vector3::Zero();
+double FieldSearch::lowerBound(const Corners<3>& corners, double enough) const {
+  Surroundings around;
+  around.low = around.high = corners[0];
+  Vector3 sum = Vector3::Zero();
   for (const Vector3& corner : corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
+    around.low = around.low.cwiseMin(corner);
+    around.high = around.high.cwiseMax(corner);
     sum += corner;
   }
-  const DistanceField::Index from = field_.cellOf(low), to = field_.cellOf(high);
-  double bound = std::max(field_.least(from, to), bySlopes(corners, sum / 3.0, low, high));
+  around.middle = sum / 3.0;
+  around.from = field_.cellOf(around.low);
+  around.to = field_.cellOf(around.high);
+  double bound = field_.least(around.from, around.to);
+  if (bound < enough) {
+    bound = std::max(bound, bySlopes(corners, around));
+  }
   if (is_free_) {
-    const Vector3 gap = (-high).cwiseMax(low - field_.extent()).cwiseMax(0.0);
+    const Vector3 gap = (-around.high).cwiseMax(around.low - field_.extent()).cwiseMax(0.0);
     return bound > 0.0 ? std::hypot(bound, gap.norm()) : bound;
   }
   Vector3 unused;
@@ -91,9 +98,9 @@ double FieldSearch::lowerBound(const Corners<3>& corners) const {
 
 //! A lower bound [m] of the field on an element: from its middle it falls no faster than the slopes around let it, and
 //! that is least at a corner.
-double FieldSearch::bySlopes(const Corners<3>& corners, const Vector3& middle, const Vector3& low,
-                             const Vector3& high) const {
-  SlopeRange slopes = field_.slopes(field_.cellOf(low), field_.cellOf(high));
+double FieldSearch::bySlopes(const Corners<3>& corners, const Surroundings& around) const {
+  const Vector3 &low = around.low, &high = around.high, &middle = around.middle;
+  SlopeRange slopes = field_.slopes(around.from, around.to);
   for (int axis = 0; axis < 3; ++axis) {
     if (high[axis] <= 0.0 || low[axis] >= field_.extent()[axis]) {
       slopes.least[axis] = slopes.most[axis] = 0.0;  // what is beyond the border is as the border
@@ -108,7 +115,7 @@ double FieldSearch::bySlopes(const Corners<3>& corners, const Vector3& middle, c
     const Vector3 arm = corner - middle;
     fall = std::min(fall, slopes.least.cwiseProduct(arm).cwiseMin(slopes.most.cwiseProduct(arm)).sum());
   }
-  return field_.expand(field_.cellOf(on_border), on_border).value + fall - 1e-9;
+  return field_.value(field_.cellOf(on_border), on_border) + fall - 1e-9;
 }
 
 FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double limit) {
@@ -126,7 +133,7 @@ FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double lim
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     const double goal = std::min(best_.distance - kTolerance, limit);
-    if (lowerBound(piece.corners) < goal && !cut(piece) && cellBound(piece) < goal) {
+    if (lowerBound(piece.corners, goal) < goal && !cut(piece) && cellBound(piece) < goal) {
       halve(piece);
     }
   }
@@ -222,8 +229,15 @@ void FieldSearch::divide(const Piece& piece, int from, int to, double parameter)
   }
 }
 
+//! That of sample().
+double FieldSearch::distanceAt(const Vector3& point) const {
+  const Vector3& extent = field_.extent();
+  const bool is_inside = (point.array() >= 0.0).all() && (point.array() <= extent.array()).all();
+  return is_free_ && is_inside ? field_.value(field_.cellOf(point), point) : sample(point).distance;
+}
+
 void FieldSearch::consider(const Vector3& point, const Weights& weights) {
-  const double distance = sample(point).distance;
+  const double distance = distanceAt(point);
   if (distance < best_.distance) {
     best_ = {distance, weights};
   }
