@@ -126,7 +126,7 @@ FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double lim
   for (int k = 0; k < 3; ++k) {
     whole.weights[k] = {0.0, 0.0, 0.0};
     whole.weights[k][std::min(k, count - 1)] = 1.0;
-    consider(corners[k], whole.weights[k]);
+    whole.distances[k] = consider(corners[k], whole.weights[k]);
   }
   pieces_.assign(1, whole);
   for (int n = 0; !pieces_.empty() && n < kMostPieces; ++n) {
@@ -216,14 +216,18 @@ void FieldSearch::divide(const Piece& piece, int from, int to, double parameter)
   for (int i = 0; i < 3; ++i) {
     weights[i] = (1.0 - parameter) * piece.weights[from][i] + parameter * piece.weights[to][i];
   }
-  consider(point, weights);
-  for (int replaced : {from, to}) {
+  const double distance = consider(point, weights);
+  const bool first_is_nearer = piece.distances[from] < piece.distances[to];
+  for (int replaced :
+       {first_is_nearer ? from : to, first_is_nearer ? to : from}) {  // the nearer half is searched first
     Piece part = piece;
     part.corners[replaced] = point;
     part.weights[replaced] = weights;
+    part.distances[replaced] = distance;
     if (count_ == 2) {
       part.corners[2] = part.corners[1];
       part.weights[2] = part.weights[1];
+      part.distances[2] = part.distances[1];
     }
     pieces_.push_back(part);
   }
@@ -236,11 +240,12 @@ double FieldSearch::distanceAt(const Vector3& point) const {
   return is_free_ && is_inside ? field_.value(field_.cellOf(point), point) : sample(point).distance;
 }
 
-void FieldSearch::consider(const Vector3& point, const Weights& weights) {
+double FieldSearch::consider(const Vector3& point, const Weights& weights) {
   const double distance = distanceAt(point);
   if (distance < best_.distance) {
     best_ = {distance, weights};
   }
+  return distance;
 }
 
 //! The mean of the corners that are as near as the best, if it is so, too.

@@ -54,6 +54,7 @@ class FieldSearch {
   struct Piece {
     Corners<3> corners;
     std::array<Weights, 3> weights;
+    std::array<double, 3> distances;  // m, at the corners
   };
 
   //! The cells around an element, and the box around it.
@@ -70,7 +71,7 @@ class FieldSearch {
   void halve(const Piece& piece);
   void divide(const Piece& piece, int from, int to, double parameter);
   double distanceAt(const Vector3& point) const;
-  void consider(const Vector3& point, const Weights& weights);
+  double consider(const Vector3& point, const Weights& weights);
   FieldPlace middle(const Corners<3>& corners) const;
 
   const DistanceField& field_;
