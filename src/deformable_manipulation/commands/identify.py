@@ -8,7 +8,11 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import command_parser, folder_name, override
+from deformable_manipulation.commands.arguments import (
+    add_set_argument,
+    command_parser,
+    folder_name,
+)
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
@@ -104,13 +108,14 @@ def _write(folder: Path, found, recordings: Sequence[str], windows: int) -> None
     )
 
     for name, value, spread in values(found):
-        print(f"{name:32} {value:>16}  +- {spread}")
+        print(f"{name:32} {value:>16}  {spread}")
     for sentence in statements(found):
         print(sentence)
     numbers = {
         "parameters": found.parameters.names,
         "vector": list(map(float, found.fit.vector)),
         "deviations": [None if math.isnan(x) else float(x) for x in found.fit.deviations],
+        "at_bounds": found.parameters.at_bounds(found.fit.vector).tolist(),
         "errors": {key: None if math.isnan(x) else x for key, x in found.errors.items()},
         "left_out": found.left_out,
     }
@@ -133,14 +138,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         required=True,
         help="YAML file with a section object to begin with, or the name of a scenario",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the file, as in object.damping=0; can be repeated",
-    )
+    add_set_argument(parser, "replace a value of the file, as in object.damping=0")
     parser.add_argument(
         "--fit",
         metavar="NAMES",

@@ -1,7 +1,7 @@
 """What an identification found, in words and as an ``object`` section."""
 
 import math
-from typing import Dict, Iterator, List, Sequence
+from typing import Dict, Iterator, List, Sequence, Tuple
 
 import yaml
 
@@ -24,17 +24,31 @@ _ANOTHER_CLIP = 1.5  # times the error inside, from which on the fit does not ca
 
 def values(found: Identification) -> List[List[str]]:
     """Rows of name, value, standard deviation."""
-    rows = []
-    for name, number, deviation in zip(
-        found.parameters.names, found.fit.vector, found.fit.deviations
-    ):
-        if name in MATERIAL:
-            value = f"{math.exp(number):.4g} {_UNITS[name]}"
-            spread = f"{100.0 * deviation:.1f} %"
-        else:
-            value, spread = f"{math.degrees(number):.2f} deg", f"{math.degrees(deviation):.2f} deg"
-        rows.append([name, value, "not known" if math.isnan(deviation) else spread])
-    return rows
+    return [
+        [name, _value(name, number), _spread(name, deviation, at_bound)]
+        for name, number, deviation, at_bound in _found(found)
+    ]
+
+
+def _found(found: Identification) -> Iterator[Tuple[str, float, float, bool]]:
+    """Of each parameter its name, number, deviation, and whether it lies at a bound."""
+    at_bounds = found.parameters.at_bounds(found.fit.vector).tolist()
+    yield from zip(found.parameters.names, found.fit.vector, found.fit.deviations, at_bounds)
+
+
+def _value(name: str, number: float) -> str:
+    if name in MATERIAL:
+        return f"{math.exp(number):.4g} {_UNITS[name]}".strip()
+    return f"{math.degrees(number):.2f} deg"
+
+
+def _spread(name: str, deviation: float, at_bound: bool) -> str:
+    if at_bound:
+        return "at the bound of the search"
+    if math.isnan(deviation):
+        return "not known"
+    percent, degrees = 100.0 * deviation, math.degrees(deviation)
+    return f"+- {percent:.1f} %" if name in MATERIAL else f"+- {degrees:.2f} deg"
 
 
 def statements(found: Identification) -> Iterator[str]:
@@ -45,9 +59,14 @@ def statements(found: Identification) -> Iterator[str]:
         f"E I / (rho A) = {spec.stiffness_over_mass:.4g} m^4/s^2. With another density, change "
         "young_modulus in proportion."
     )
-    for name, number, deviation in zip(
-        found.parameters.names, found.fit.vector, found.fit.deviations
-    ):
+    for name, number, deviation, at_bound in _found(found):
+        if at_bound:
+            yield (
+                f"The value of {name}, {_value(name, number)}, is the bound of the search and no "
+                "result: the data do not tell it, or something else is wrong, such as what the "
+                "grippers hold."
+            )
+            continue
         if math.isnan(deviation):
             continue
         if name in MATERIAL and deviation > _VAGUE_FACTOR:
@@ -89,7 +108,7 @@ def object_section(found: Identification) -> str:
     """The object with the values found, as YAML; deviations and the grips' aim in comments."""
     spec = found.parameters.object_of(found.fit.vector)
     lines = ["# Identified from recordings; standard deviations:"]
-    lines += [f"#   {name}: {value} +- {spread}" for name, value, spread in values(found)]
+    lines += [f"#   {name}: {value} {spread}" for name, value, spread in values(found)]
     mapping = {"object": _rounded(spec.to_mapping())}
     text = yaml.safe_dump(mapping, sort_keys=False, default_flow_style=None)
     return "\n".join(lines) + "\n" + text

@@ -76,9 +76,18 @@ class Parameters:
 
     def bounded(self, vector: np.ndarray) -> np.ndarray:
         """The nearest vector that has a meaning."""
-        low = [math.log(_LEAST[key]) for key in self.material] + [-_MOST_AIM] * (2 * self.grips)
-        high = [math.log(_MOST[key]) for key in self.material] + [_MOST_AIM] * (2 * self.grips)
-        return np.clip(vector, low, high)
+        return np.clip(vector, *self._bounds())
+
+    def at_bounds(self, vector: np.ndarray) -> np.ndarray:
+        """Which numbers (P,) of a vector lie at a bound of the search."""
+        low, high = self._bounds()
+        return (vector <= low) | (vector >= high)
+
+    def _bounds(self) -> Tuple[np.ndarray, np.ndarray]:
+        aims = np.full(2 * self.grips, _MOST_AIM)
+        low = [math.log(_LEAST[key]) for key in self.material]
+        high = [math.log(_MOST[key]) for key in self.material]
+        return np.append(low, -aims), np.append(high, aims)
 
     def object_of(self, vector: np.ndarray) -> RodSpec:
         """The object with these parameters."""

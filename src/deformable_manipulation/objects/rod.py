@@ -169,7 +169,7 @@ class RodSpec(ObjectSpec):
         )
 
     def refined(self, factor: int) -> "RodSpec":
-        """See :meth:`.ObjectSpec.refined`."""
+        """The same rod in ``factor`` times as many segments."""
         return dataclasses.replace(self, segments=factor * self.segments)
 
     def with_random_material(self, draw: Callable[[], float]) -> "RodSpec":

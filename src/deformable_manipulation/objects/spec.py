@@ -77,10 +77,6 @@ class ObjectSpec(ABC):
     def with_factors(self, stiffness: float, density: float) -> "ObjectSpec":
         """The same object with its stiffnesses and its density times a factor."""
 
-    def refined(self, factor: int) -> "ObjectSpec":
-        """The same object in ``factor`` times as many particles; rods only."""
-        raise NotImplementedError(f"a {self.type} has no finer mesh of the same shape")
-
     @abstractmethod
     def with_random_material(self, draw: Callable[[], float]) -> "ObjectSpec":
         """The same object of another material; each call of ``draw`` gives a factor."""

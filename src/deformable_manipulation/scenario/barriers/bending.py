@@ -32,7 +32,7 @@ BARRIER = BarrierKind(
     meaning="Keeps a rope or rod from being bent too sharply anywhere. "
     "See [loads](barriers/loads.md).",
     margin="bending margin",
-    missed="bent too sharply",
+    missed="the object is bent too sharply",
     default=None,
     derive=_derive,
     check=demand_rod("bending", "a fabric folds, and has no bend radius"),

@@ -104,7 +104,7 @@ BARRIER = BarrierKind(
     rank=10,
     meaning="Keeps the object off the obstacles.",
     margin="distance minus offset",
-    missed="too near an obstacle",
+    missed="the object is too near an obstacle",
     default=NOTHING,
     of_object=("margin", "speed_margin", "snap_margin"),
 )

@@ -29,7 +29,7 @@ BARRIER = BarrierKind(
     meaning="Keeps the force at each agent's grip below what wrist and grip bear. "
     "See [loads](barriers/loads.md).",
     margin="grip force margin",
-    missed="too much force at a grip",
+    missed="the force at a grip is too large",
     default=None,
     unit="N",
     needs_wrenches=True,

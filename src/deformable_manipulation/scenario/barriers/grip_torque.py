@@ -30,7 +30,7 @@ BARRIER = BarrierKind(
     meaning="Keeps the torque at each agent's grip below what wrist and grip bear. "
     "See [loads](barriers/loads.md).",
     margin="grip torque margin",
-    missed="too much torque at a grip",
+    missed="the torque at a grip is too large",
     default=None,
     check=demand_rod("grip_torque", "the vertices of a fabric exert no torque"),
     unit="N m",

@@ -39,7 +39,7 @@ BARRIER = BarrierKind(
     "stretched too far. "
     "See [loads](barriers/loads.md).",
     margin="strain margin",
-    missed="strained too far",
+    missed="the object is strained too far",
     default=None,
     derive=_derive,
     unit="1",

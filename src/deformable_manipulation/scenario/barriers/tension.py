@@ -37,7 +37,7 @@ BARRIER = BarrierKind(
     meaning="Keeps the tension anywhere in a rope or rod below what it bears. "
     "See [loads](barriers/loads.md).",
     margin="tension margin",
-    missed="under too much tension",
+    missed="the tension of the object is too large",
     default=None,
     derive=_derive,
     check=demand_rod("tension", "the tension of a fabric is its strain, see controller.strain"),
