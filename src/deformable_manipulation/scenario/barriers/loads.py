@@ -5,13 +5,32 @@ from typing import Any, Dict, Tuple
 
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Number, Slopes
+from deformable_manipulation.reading.readers import Number, Slopes, vector
 from deformable_manipulation.scenario.barriers.kind import BarrierKind
+
+_NO_LIMIT = 1e6  # N or N m, of the C++ core, too
 
 
 def limit_parameter(unit: str, meaning: str) -> Any:
     """The parameter with the limit of a load."""
     return parameter(Number(unit, above=0.0, at_most=1e6), meaning, native=True)
+
+
+def per_axis_parameter(unit: str, quantity: str) -> Any:
+    """The parameter with the limits of a grip's force or torque along each of its axes."""
+    return parameter(
+        vector(unit, above=0.0, at_most=_NO_LIMIT),
+        f"Greatest part of the {quantity} along each axis of the grip's frame, either way, where "
+        "limits of a wrist or a coupling differ: x is along the held segment. 1e6: no limit.",
+        default=(_NO_LIMIT,) * 3,
+        default_text="no limits",
+        native=True,
+    )
+
+
+def orientations_of_grips(scenario) -> Dict[str, Any]:
+    """The ``derive`` of a barrier on the grips: how each agent's grip is turned at the start."""
+    return {"orientations": [list(agent.orientation) for agent in scenario.agents]}
 
 
 def load_barrier(name: str, limits: Dict[str, Any], meaning: str, **declaration) -> BarrierKind:
