@@ -31,19 +31,22 @@ LoadBarrier::LoadBarrier(const LoadParameters& parameters, const Team& team) : p
 
 bool LoadBarrier::concerns(int /*item*/, int /*agent*/) const { return true; }
 
-double LoadBarrier::value(const PresentState& state, int agent) const {
+//! How far the loads of an agent are within their limits, less a part of these.
+double LoadBarrier::leastMargin(const PresentState& state, int agent, double reserve) const {
   double least = std::numeric_limits<double>::infinity();
   const int loads = count(state.shape);
   for (int item = 0; item < loads; ++item) {
     if (concerns(item, agent)) {
-      least = std::min(least, parameters_.limit - load(state.shape, item));
+      least = std::min(least, (1.0 - reserve) * limit(item) - load(state.shape, item));
     }
   }
   return least;
 }
 
+double LoadBarrier::value(const PresentState& state, int agent) const { return leastMargin(state, agent, 0.0); }
+
 double LoadBarrier::clearance(const PresentState& state, int agent) const {
-  const bool kept = value(state, agent) >= parameters_.reserve * parameters_.limit;
+  const bool kept = leastMargin(state, agent, parameters_.reserve) >= 0.0;
   return kept ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
 }
 
@@ -61,13 +64,13 @@ void LoadBarrier::addRows(const Features& /*features*/, const PredictedState& st
         gradient.tail<3>().setZero();
       }
     }
-    addRow(load(state.shape, item), state, rows);
+    addRow(load(state.shape, item), limit(item), state, rows);
   }
 }
 
 //! The row of a load with the gradients computed last, unless every velocity satisfies it. It is scaled to gradients of
 //! one, so that its slack is a velocity.
-void LoadBarrier::addRow(double load, const PredictedState& state, BarrierRows& rows) const {
+void LoadBarrier::addRow(double load, double limit, const PredictedState& state, BarrierRows& rows) const {
   const Vector3& leader_velocity = state.leaderVelocity();
   double rate = 0.0;  // of the load, by the predicted velocities
   for (const int assistant : team_.assistants) {
@@ -84,7 +87,7 @@ void LoadBarrier::addRow(double load, const PredictedState& state, BarrierRows& 
   const double all = sumOfSquares(gradients_, team_.assistants);
   const double own = sumOfSquares(gradients_, team_.commanded);
   const double share = team_.formulation.shares && all > 0.0 ? own / all : 1.0;
-  const double h = (1.0 - parameters_.reserve) * parameters_.limit - (load + state.delay * rate);
+  const double h = (1.0 - parameters_.reserve) * limit - (load + state.delay * rate);
   double bound = -share * (parameters_.alpha(h) - turning);
   double reach = 0.0;  // that all velocities together can change it by, per second
   for (const int agent : team_.commanded) {
@@ -95,7 +98,7 @@ void LoadBarrier::addRow(double load, const PredictedState& state, BarrierRows& 
   if (bound <= -reach) {
     return;
   }
-  const double scale = 1.0 / std::max(std::sqrt(own), parameters_.limit / LONGEST_WAY);
+  const double scale = 1.0 / std::max(std::sqrt(own), limit / LONGEST_WAY);
   auto row = rows.limit(scale * bound);
   for (std::size_t i = 0; i < team_.commanded.size(); ++i) {
     const Vector6& gradient = gradients_[team_.commanded[i]];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deformable_manipulation/control/orientation.h"
+
 namespace deformable_manipulation {
 namespace control {
 namespace {
@@ -11,12 +13,6 @@ constexpr double SMOOTHING = 0.1;  // [s] time constant of its velocity
 constexpr double LONGEST = 0.5;    // [s] between poses of one motion
 constexpr double FASTEST = 5.0;    // [m/s] faster is no motion but a leap
 constexpr int STEPS = 32;          // of an extrapolated path: between two poses a turn is the shorter one
-
-Vector3 rotationVector(const pbd::Quaternion& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() <= M_PI ? Vector3(turn.angle() * turn.axis())
-                              : Vector3((turn.angle() - 2.0 * M_PI) * turn.axis());
-}
 
 pbd::Quaternion turned(const Vector3& vector, const pbd::Quaternion& rotation) {
   const double angle = vector.norm();

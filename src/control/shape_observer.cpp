@@ -8,6 +8,7 @@ ObjectShape presentShape(const ObservationView& observation) {
   shape.agents = observation.agents;
   shape.points = observation.points;
   shape.coordinates = observation.coordinates;
+  shape.orientations = observation.orientations;
   shape.wrenches = observation.wrenches;
   return shape;
 }

@@ -41,7 +41,7 @@ struct BoundShape {
 };
 
 BoundShape makeShape(int agents, const py::array& points, const py::object& response, const py::object& wrenches,
-                     const py::object& wrench_response, const py::object& turning) {
+                     const py::object& wrench_response, const py::object& turning, const py::object& orientations) {
   BoundShape bound;
   const py::ssize_t count = points.ndim() == 2 ? points.shape(0) : 0;
   bound.view.agents = agents;
@@ -49,6 +49,7 @@ BoundShape makeShape(int agents, const py::array& points, const py::object& resp
   bound.view.coordinates = bound.take(points, {count, 3}, "points");
   bound.view.response = bound.take(response, {agents, count, 3, 3}, "response");
   bound.view.turning = bound.take(turning, {agents, count, 3, 3}, "turning");
+  bound.view.orientations = bound.take(orientations, {agents, 4}, "orientations");
   bound.view.wrenches = bound.take(wrenches, {agents, 6}, "wrenches");
   bound.view.wrench_response = bound.take(wrench_response, {agents, 6, agents, 6}, "wrench_response");
   return bound;
@@ -134,10 +135,11 @@ void bindBarriers(py::module_& module) {
   py::class_<BoundShape>(
       module, "ObjectShape",
       "Points (P, 3) [m] of an object held by A agents, and what is known of: response (A, P, 3, 3),\n"
-      "wrenches (A, 6) [N, N m], wrench_response (A, 6, A, 6), turning (A, P, 3, 3) [m/rad]. Raises "
-      "ValueError.")
+      "wrenches (A, 6) [N, N m], wrench_response (A, 6, A, 6), turning (A, P, 3, 3) [m/rad], "
+      "orientations (A, 4) x, y, z, w of the grips. Raises ValueError.")
       .def(py::init(&makeShape), py::arg("agents"), py::arg("points"), py::arg("response") = py::none(),
-           py::arg("wrenches") = py::none(), py::arg("wrench_response") = py::none(), py::arg("turning") = py::none());
+           py::arg("wrenches") = py::none(), py::arg("wrench_response") = py::none(), py::arg("turning") = py::none(),
+           py::arg("orientations") = py::none());
   py::class_<BoundBarrier>(module, "Barrier",
                            "A barrier by its name, with the parameters (dict) of its section, for a Team. Raises\n"
                            "ValueError.")

@@ -37,6 +37,9 @@ class LoadBarrier : public Barrier {
   //! Number of loads that are known in a shape.
   virtual int count(const ObjectShape& shape) const = 0;
 
+  //! The limit of a load, in its unit.
+  virtual double limit(int /*item*/) const { return parameters_.limit; }
+
   //! A load.
   virtual double load(const ObjectShape& shape, int item) const = 0;
 
@@ -52,7 +55,8 @@ class LoadBarrier : public Barrier {
   const Team& team() const { return team_; }
 
  private:
-  void addRow(double load, const PredictedState& state, BarrierRows& rows) const;
+  double leastMargin(const PresentState& state, int agent, double reserve) const;
+  void addRow(double load, double limit, const PredictedState& state, BarrierRows& rows) const;
 
   LoadParameters parameters_;
   Team team_;

@@ -7,6 +7,7 @@
 namespace deformable_manipulation {
 namespace control {
 
+using pbd::Quaternion;
 using pbd::Vector3;
 using pbd::Vector6;
 
@@ -19,12 +20,18 @@ struct ObjectShape {
   int points = 0;                       //!< P
   const double* coordinates = nullptr;  //!< [P x 3] m
   const double* response = nullptr;     //!< [A x P x 3 x 3] d point / d held point; null: not known
-  const double* turning = nullptr;   //!< [A x P x 3 x 3] d point / d turn about the held point; null: grips do not turn
-  const double* wrenches = nullptr;  //!< [A x 6] N and N m on the agents; null: not known
+  const double* turning = nullptr;  //!< [A x P x 3 x 3] d point / d turn about the held point; null: grips do not turn
+  const double* orientations = nullptr;     //!< [A x 4] x, y, z, w of the grips; null: those from the start
+  const double* wrenches = nullptr;         //!< [A x 6] N and N m on the agents; null: not known
   const double* wrench_response = nullptr;  //!< [A x 6 x A x 6] d wrench / d held point, turn; null: not known
 
   Eigen::Map<const Vector3> point(int i) const { return Eigen::Map<const Vector3>(coordinates + 3L * i); }
   Eigen::Map<const Vector6> wrench(int agent) const { return Eigen::Map<const Vector6>(wrenches + 6L * agent); }
+
+  //! Orientation of a grip that had another one at the start.
+  Quaternion orientation(int agent, const Quaternion& start) const {
+    return orientations != nullptr ? Quaternion(Eigen::Map<const Quaternion>(orientations + 4L * agent)) : start;
+  }
 
   //! Adds the change of by . point i to the gradients [A] by the held points and, if known, by turns about them.
   void addPointGradient(int i, const Vector3& by, std::vector<Vector6>& gradients) const {

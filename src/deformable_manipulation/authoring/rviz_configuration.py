@@ -51,7 +51,7 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_DISPLAYS, *_clouds(scenario)],
+            "Displays": [_grid(low, high, flat), *_displays(scenario), *_clouds(scenario)],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
@@ -104,12 +104,19 @@ _DISPLAYS = (
         "Class": "rviz/TF",
         "Name": "Frames of the agents",
         "Enabled": False,
-        "Marker Scale": 0.3,
+        "Marker Scale": 0.8,  # of 0.2 m: longer than the balls at the grips
         "Show Arrows": False,
         "Show Names": False,
         "Value": False,
     },
 )
+
+
+def _displays(scenario):
+    """With the axes of the grips, where these turn; without those of the fixed frame."""
+    turns = scenario.controller.turns
+    frames = {scenario.frame: {"Value": False}}
+    return [*_DISPLAYS[:-1], {**_DISPLAYS[-1], "Enabled": turns, "Frames": frames, "Value": turns}]
 
 
 # The first is the one in the hand: it drags markers, and moves the camera elsewhere.

@@ -201,6 +201,11 @@ class RodSpec(ObjectSpec):
         """Of the cross-section, E I [N m^2]."""
         return self.young_modulus * math.pi * self.radius**4 / 4.0
 
+    @property
+    def torsion_stiffness(self) -> float:
+        """Of the cross-section, G J [N m^2]."""
+        return self.torsion_modulus * math.pi * self.radius**4 / 2.0
+
     def description(self) -> str:
         """What it is, in a few words."""
         return "rod of {:g} m, radius {:g} m, {} segments".format(

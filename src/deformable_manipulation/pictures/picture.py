@@ -7,7 +7,7 @@ import numpy as np
 
 _CLEARLY_DIFFERENT = 40  # of 255, in a channel; a faint grid is less
 _SHADES = 32  # of 256: colors are distinguished in steps of this size
-_LEAST_SHARE = 5e-4  # of the picture, for something that is shown and for a color
+_LEAST_SHARE = 1e-4  # of the picture, for a color; a thin rope from afar is hardly more
 _LEAST_COLORS = 3  # beside the background
 _PERIOD = 0.1  # s between looks
 _SAME_LOOKS = 5  # in a row, for a picture at rest

@@ -85,3 +85,10 @@ def test_markers_can_be_dragged_at_once(manager):
 def test_the_text_is_free_of_aliases(scenario):
     text = (SHARE / "rviz" / f"{scenario.name}.rviz").read_text()
     assert "&id" not in text and yaml.safe_load(text) == rviz_configuration(scenario)
+
+
+def test_the_axes_of_grips_that_turn_are_shown_beyond_the_balls(scenario, manager):
+    (axes,) = [each for each in manager["Displays"] if each["Class"] == "rviz/TF"]
+    assert axes["Enabled"] == axes["Value"] == scenario.controller.turns
+    assert 0.2 * axes["Marker Scale"] > 2 * 0.07  # m, of RViz's axes, and the balls at the grips
+    assert axes["Frames"][scenario.frame] == {"Value": False}

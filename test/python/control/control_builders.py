@@ -144,7 +144,7 @@ class HalfSpace:
         )
 
 
-def team(commanded, assistants, agents, formulation, max_velocity=0.15):
+def team(commanded, assistants, agents, formulation, max_velocity=0.15, **turning):
     """Who is commanded; agent 0 leads."""
     return _control.Team(
         agents=agents,
@@ -153,6 +153,7 @@ def team(commanded, assistants, agents, formulation, max_velocity=0.15):
         commanded=list(commanded),
         max_velocity=max_velocity,
         formulation=formulation,
+        **turning,
     )
 
 

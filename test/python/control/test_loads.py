@@ -4,6 +4,7 @@ import control_builders as build
 import numpy as np
 import pytest
 import yaml
+from scipy.spatial.transform import Rotation
 from scipy.special import ellipe, ellipk
 
 from deformable_manipulation import _control, _pbd
@@ -19,6 +20,7 @@ SEGMENTS, LENGTH = 24, 2.0
 HELD = np.array([[0.0, 0.0, 0.0], [0.05, 0.7, 0.1], [0.1, 1.5, 0.2]])
 PARTICLES = (0, 12, 23)
 ALONG_Y = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
+GRIPS = np.tile(ALONG_Y, (3, 1))
 GRAVITY = np.array([0.0, 0.0, -9.81])
 STEP = 1e-5  # m
 FAR = 1e4  # in the unit of any load: a limit that nothing comes near to
@@ -48,15 +50,34 @@ class HeldRod:
         assert self._rod.settle(0.01, 2, 1e-8, 60.0)
         self._equilibrium = _pbd.RodEquilibrium()
 
-    def shape(self, held):
-        for particle, position in zip(PARTICLES, held):
-            self._rod.set_pose(particle, position, ALONG_Y)
+    def shape(self, held, orientations=GRIPS):
+        for particle, position, orientation in zip(PARTICLES, held, orientations):
+            self._rod.set_pose(particle, position, orientation)
         found = self._equilibrium
         found.update(self._rod, tolerance=1e-10)
         assert found.valid(), found.status()
         return _control.ObjectShape(
-            3, found.points(), found.response(), found.wrenches(), found.wrench_response()
+            3,
+            found.points(),
+            found.response(),
+            found.wrenches(),
+            found.wrench_response(),
+            found.turning_response(),
+            orientations,
         )
+
+    def points(self):
+        return self._equilibrium.points()
+
+    def wrenches(self):
+        return self._equilibrium.wrenches()
+
+    def settled(self, orientations):
+        """The rod at rest with its grips turned."""
+        for particle, position, orientation in zip(PARTICLES, HELD, orientations):
+            self._rod.set_pose(particle, position, orientation)
+        assert self._rod.settle(0.01, 2, 1e-8, 60.0)
+        return self._rod
 
 
 @pytest.fixture(scope="module")
@@ -69,20 +90,23 @@ def sections():
     mass = 1500.0 * np.pi * 0.004**2 * LENGTH / SEGMENTS
     ends = np.arange(SEGMENTS)
     edges = np.column_stack((ends, ends + 1, np.full(SEGMENTS, LENGTH / SEGMENTS)))
+    joints = {"weight": mass * GRAVITY, "particles": list(PARTICLES)}
+    stiffness = 7e7 * np.pi * 0.004**4 / 2.0
     return {
         "bending": {"min_radius": 1.0 / FAR, "segment_length": LENGTH / SEGMENTS},
-        "grip_force": {"max_force": FAR},
-        "grip_torque": {"max_torque": FAR},
-        "tension": {"max_tension": FAR, "weight": mass * GRAVITY, "particles": list(PARTICLES)},
+        "twist": {"max_twist": FAR, "torsion_stiffness": stiffness, **joints},
+        "grip_force": {"max_force": FAR, "max_force_per_axis": [1e6] * 3},
+        "grip_torque": {"max_torque": FAR, "max_torque_per_axis": [1e6] * 3},
+        "tension": {"max_tension": FAR, **joints},
         "strain": {"max_strain": FAR, "edges": edges},
     }
 
 
-def barrier(name, commanded=(1, 2), formulation=None, **changes):
+def barrier(name, commanded=(1, 2), formulation=None, turns=False, **changes):
     section = {"reserve": 0.0, "alpha": [1.0, 2.0], **sections()[name], **changes}
-    members = build.team(
-        commanded, [1, 2], 3, formulation or _control.Formulation.full(), max_velocity=1e9
-    )
+    bounds = {"max_velocity": 1e9, "max_angular_velocity": 1e9 if turns else 0.0}
+    formulation = formulation or _control.Formulation.full()
+    members = build.team(commanded, [1, 2], 3, formulation, **bounds)
     return _control.Barrier(name, section, members)
 
 
@@ -120,6 +144,102 @@ def test_rows_are_the_gradients_by_differences(held_rod, name):
     np.testing.assert_allclose(gradient, differences, rtol=1e-5, atol=1e-6)
 
 
+def turned(orientation, rotation_vector):
+    return (Rotation.from_rotvec(rotation_vector) * Rotation.from_quat(orientation)).as_quat()
+
+
+#: Turned, so that the rod is twisted and the axes of the grips are not those of the fixed frame.
+TURNED = np.array(
+    [turned(ALONG_Y, turn) for turn in ((0.0, 0.7, 0.1), (0.0, 0.0, 0.0), (0.1, -0.4, 0.2))]
+)
+
+# What is limited along one axis alone, and an agent: most is borne by the leader or by itself.
+ONE_AXIS = [
+    ("grip_force", "max_force_per_axis", 0, 1),  # the leader
+    ("grip_force", "max_force_per_axis", 2, 1),  # the agent itself
+    ("grip_torque", "max_torque_per_axis", 1, 1),  # the leader
+    ("grip_torque", "max_torque_per_axis", 2, 2),  # the agent itself
+]
+
+
+def differences(value):
+    """Of value(held, orientations), by both assistants' held points, then by their turns."""
+    result = []
+    for part in ("moves", "turns"):
+        for agent in (1, 2):
+            for axis in np.eye(3):
+                ends = []
+                for sign in (1.0, -1.0):
+                    held, orientations = HELD.copy(), TURNED.copy()
+                    if part == "moves":
+                        held[agent] += sign * STEP * axis
+                    else:
+                        orientations[agent] = turned(orientations[agent], sign * STEP * axis)
+                    ends.append(value(held, orientations))
+                result.append((ends[0] - ends[1]) / (2.0 * STEP))
+    return np.array(result)
+
+
+def check_turning_rows(held_rod, native, scale, agent=1):
+    """The row of the load that is nearest to its limit is its gradient by moves and turns."""
+
+    def value(held, orientations):
+        return native.value(held, np.inf, agent, held_rod.shape(held, orientations))
+
+    state = _control.PredictedState(HELD, np.zeros((3, 3)), angular_velocities=np.zeros((3, 3)))
+    state.set_shape(held_rod.shape(HELD, TURNED))
+    rows = native.rows(build.NO_FEATURES, state)
+    nearest = np.argmin(np.abs(rows.bounds + scale * value(HELD, TURNED)))
+    assert rows.bounds[nearest] == pytest.approx(-scale * value(HELD, TURNED), rel=1e-12)
+    gradient = rows.coefficients[nearest] / scale
+    expected = differences(value)
+    np.testing.assert_allclose(gradient, expected, rtol=1e-4, atol=1e-5 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["twist", "bending", "grip_torque"])
+def test_rows_are_the_gradients_by_turns_too(held_rod, name):
+    check_turning_rows(held_rod, barrier(name, turns=True), SCALE)
+
+
+@pytest.mark.parametrize("name, key, axis, agent", ONE_AXIS)
+def test_rows_per_axis_are_the_gradients(held_rod, name, key, axis, agent):
+    """In the frame of the grip, which turns with it."""
+    limits = np.full(3, 1e6)
+    limits[axis] = 1e3
+    native = barrier(name, turns=True, **{key: limits, "orientations": GRIPS})
+    check_turning_rows(held_rod, native, 10.0 / 1e3, agent)
+
+
+@pytest.mark.parametrize("name, key, axis, agent", ONE_AXIS)
+def test_limits_per_axis_are_those_of_the_grips_frame(held_rod, name, key, axis, agent):
+    """Of the agent and of the leader, either way; from the start, if orientations are not told."""
+    limits = np.full(3, 1e6)
+    limits[axis] = 1e3
+    native = barrier(name, **{key: limits, "orientations": TURNED})
+    shape = held_rod.shape(HELD, TURNED)
+    wrenches = held_rod.wrenches()[:, :3] if name == "grip_force" else held_rod.wrenches()[:, 3:]
+    own = Rotation.from_quat(TURNED).inv().apply(wrenches)[:, axis]
+    untold = _control.ObjectShape(3, held_rod.points(), wrenches=held_rod.wrenches())
+    for told in (shape, untold):
+        assert 1e3 - native.value(HELD, np.inf, agent, told) == pytest.approx(
+            np.abs(own[[0, agent]]).max()
+        )
+
+
+def test_the_twist_is_that_between_the_orientations_of_the_segments(held_rod):
+    """The rod is at rest, turned and bent in space: about the axis of each joint."""
+    settled = held_rod.settled(TURNED)
+    orientations = Rotation.from_quat(settled.orientations())
+    between = (orientations[:-1].inv() * orientations[1:]).as_quat()
+    twists = 2.0 * np.arctan2(between[:, 0], between[:, 3]) / (LENGTH / SEGMENTS)
+    found = _pbd.RodEquilibrium()
+    found.update(settled, tolerance=1e-10)
+    shape = _control.ObjectShape(3, found.points(), wrenches=found.wrenches())
+    assert np.abs(twists).max() > 0.3  # rad/m
+    largest = FAR - barrier("twist").value(HELD, np.inf, 1, shape)
+    assert largest == pytest.approx(np.abs(twists).max(), rel=2e-3)
+
+
 def test_rows_are_predicted_and_shared(held_rod):
     """Over the delay the load changes by the velocities relative to the leader's."""
     shape = held_rod.shape(HELD)
@@ -142,7 +262,7 @@ def test_rows_are_predicted_and_shared(held_rod):
 
 def test_what_is_not_known_limits_nothing(held_rod):
     unknown = _control.ObjectShape(3, np.zeros((SEGMENTS + 1, 3)))
-    for name in ("grip_force", "grip_torque", "tension"):
+    for name in ("twist", "grip_force", "grip_torque", "tension"):
         assert barrier(name).value(HELD, np.inf, 1, unknown) == np.inf
         assert barrier(name).value(HELD, np.inf, 1) == np.inf
     assert len(rows_of(barrier("bending"), unknown)) == 0
@@ -315,9 +435,9 @@ def test_wrenches_that_are_not_told_stop_the_assistants():
     assert "does not tell the wrenches" in decision.text
 
 
-@pytest.mark.parametrize("name", ["bending", "grip_torque", "tension"])
+@pytest.mark.parametrize("name", ["bending", "twist", "grip_torque", "tension"])
 def test_limits_of_rods_are_refused_for_fabrics(name):
-    section = ("controller." + name, yaml.safe_dump(LIMITS[name]))
+    section = ("controller." + name, yaml.safe_dump({**LIMITS, "twist": {"max_twist": 1.0}}[name]))
     with pytest.raises(ScenarioError, match=f"controller.{name}.*for ropes and rods"):
         load_scenario("fabric_three_assistants", [section])
 

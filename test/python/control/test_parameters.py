@@ -19,6 +19,7 @@ OPTIONAL = {
     "bending": {"min_radius": 0.01},
     "grip_force": {"max_force": 100.0},
     "grip_torque": {"max_torque": 100.0},
+    "twist": {"max_twist": 100.0},
     "tension": {"max_tension": 100.0},
     "strain": {"max_strain": 1.0},
     "wrench_watch": {"max_force": 100.0, "max_torque": 100.0},

@@ -44,6 +44,15 @@ def test_the_ground_may_fill_most_of_the_picture():
     assert shows_scene(picture)
 
 
+def test_thin_things_seen_from_afar_are_a_scene():
+    picture = np.full((800, 1280, 3), BACKGROUND, dtype=np.uint8)
+    picture[300:301, 300:700] = (140, 64, 13)  # rope
+    picture[395:405, 295:305] = (240, 150, 25)  # agent
+    picture[300:555, 580:660] = (150, 145, 136)  # box
+    picture[350:390, 600:640] = (195, 190, 180)  # its top
+    assert shows_scene(picture)
+
+
 def test_a_black_screen_and_one_thing_alone_are_no_scene():
     picture = np.zeros((120, 200, 3), dtype=np.uint8)
     assert not shows_scene(picture)

@@ -16,6 +16,7 @@ SCENARIOS = (
     "rope_two_assistants",
     "rope_moving_obstacle",
     "tent_pole_one_assistant",
+    "hose_two_assistants",
 )
 
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "deformable_manipulation/control/joint_loads.h"
 #include "deformable_manipulation/control/load_barrier.h"
 
 namespace deformable_manipulation {
@@ -9,14 +10,11 @@ namespace control {
 
 //! Keeps the tension anywhere in a rod below a limit: h = max_tension - tension [N].
 //!
-//! The forces in the joints follow from the forces at the grips and the weight of the segments in between. The tension
-//! is the part of a joint's force along the rod there.
+//! The tension is the part of a joint's force along the rod there.
 class TensionBarrier final : public LoadBarrier {
  public:
-  //! @param weight [N] of a segment
-  //! @param particles [A] segment that each agent holds
-  TensionBarrier(const LoadParameters& parameters, const Vector3& weight, const std::vector<int>& particles,
-                 const Team& team);
+  TensionBarrier(const LoadParameters& parameters, const JointLoads& loads, const Team& team)
+      : LoadBarrier(parameters, team), loads_(loads) {}
 
  protected:
   int count(const ObjectShape& shape) const override {
@@ -29,10 +27,7 @@ class TensionBarrier final : public LoadBarrier {
   }
 
  private:
-  Vector3 force(const ObjectShape& shape, int joint) const;
-
-  Vector3 weight_;
-  std::vector<int> particles_;
+  JointLoads loads_;
 };
 
 }  // namespace control

@@ -1,36 +1,25 @@
 """The barrier on the force at the grips."""
 
-from dataclasses import dataclass
-from typing import Tuple
-
-from deformable_manipulation.scenario.barriers.kind import BarrierKind
 from deformable_manipulation.scenario.barriers.loads import (
-    alpha_parameter,
     limit_parameter,
-    reserve_parameter,
+    load_barrier,
+    orientations_of_grips,
+    per_axis_parameter,
 )
 
+_MAX_FORCE = "Greatest force that the object exerts on any agent, its weight included."
 
-@dataclass(frozen=True)
-class GripForceSpec:
-    """Parameters of the barrier on the force at the grips."""
-
-    max_force: float = limit_parameter(
-        "N", "Greatest force that the object exerts on any agent, its weight included."
-    )
-    reserve: float = reserve_parameter()
-    alpha: Tuple[float, float] = alpha_parameter()
-
-
-BARRIER = BarrierKind(
-    name="grip_force",
-    spec=GripForceSpec,
+BARRIER = load_barrier(
+    "grip_force",
+    {
+        "max_force": limit_parameter("N", _MAX_FORCE),
+        "max_force_per_axis": per_axis_parameter("N", "force"),
+    },
+    "Keeps the force at each agent's grip below what wrist and grip bear.",
     rank=52,
-    meaning="Keeps the force at each agent's grip below what wrist and grip bear. "
-    "See [loads](barriers/loads.md).",
     margin="grip force margin",
     missed="the force at a grip is too large",
-    default=None,
+    derive=orientations_of_grips,
     unit="N",
     needs_wrenches=True,
 )

@@ -1,37 +1,26 @@
 """The barrier on the torque at the grips."""
 
-from dataclasses import dataclass
-from typing import Tuple
-
-from deformable_manipulation.scenario.barriers.kind import BarrierKind
 from deformable_manipulation.scenario.barriers.loads import (
-    alpha_parameter,
     demand_rod,
     limit_parameter,
-    reserve_parameter,
+    load_barrier,
+    orientations_of_grips,
+    per_axis_parameter,
 )
 
+_MAX_TORQUE = "Greatest torque about a held point that the object exerts on its agent."
 
-@dataclass(frozen=True)
-class GripTorqueSpec:
-    """Parameters of the barrier on the torque at the grips."""
-
-    max_torque: float = limit_parameter(
-        "N m", "Greatest torque about a held point that the object exerts on its agent."
-    )
-    reserve: float = reserve_parameter()
-    alpha: Tuple[float, float] = alpha_parameter()
-
-
-BARRIER = BarrierKind(
-    name="grip_torque",
-    spec=GripTorqueSpec,
+BARRIER = load_barrier(
+    "grip_torque",
+    {
+        "max_torque": limit_parameter("N m", _MAX_TORQUE),
+        "max_torque_per_axis": per_axis_parameter("N m", "torque"),
+    },
+    "Keeps the torque at each agent's grip below what wrist and grip bear.",
     rank=54,
-    meaning="Keeps the torque at each agent's grip below what wrist and grip bear. "
-    "See [loads](barriers/loads.md).",
     margin="grip torque margin",
     missed="the torque at a grip is too large",
-    default=None,
+    derive=orientations_of_grips,
     check=demand_rod("grip_torque", "the vertices of a fabric exert no torque"),
     unit="N m",
     needs_wrenches=True,

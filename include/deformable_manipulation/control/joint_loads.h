@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "deformable_manipulation/control/object_shape.h"
+#include "deformable_manipulation/control/team.h"
+#include "deformable_manipulation/parameters/parameter_section.h"
+
+namespace deformable_manipulation {
+namespace control {
+
+//! What the joints of a rod bear: it follows from the wrenches at the grips and the weight of the segments in between.
+//!
+//! With the grips a and the segments i up to a joint at x, and their centres c,
+//!   force  = sum_a F_a - sum_i w ,   moment = sum_a (T_a + (c_a - x) x F_a) - sum_i (c_i - x) x w ,
+//! on the joint's first segment; F and T are what the rod exerts on the agents.
+class JointLoads {
+ public:
+  //! @param section with the keys `weight` [N] of a segment, and `particles`, the segment that each agent holds
+  JointLoads(const ParameterSection& section, const Team& team);
+
+  //! [N] On the joint's first segment.
+  Vector3 force(const ObjectShape& shape, int joint) const;
+
+  //! [N m] On the joint's first segment, about the joint.
+  Vector3 moment(const ObjectShape& shape, int joint) const;
+
+  //! Adds the change of by . force to the gradients [A] by the held points and turns about them.
+  void addForceGradient(const ObjectShape& shape, int joint, const Vector3& by, std::vector<Vector6>& gradients) const;
+
+  //! Adds the change of by . moment, likewise.
+  void addMomentGradient(const ObjectShape& shape, int joint, const Vector3& by, std::vector<Vector6>& gradients) const;
+
+ private:
+  Vector3 weight_;
+  std::vector<int> particles_;  // [A]
+};
+
+}  // namespace control
+}  // namespace deformable_manipulation
