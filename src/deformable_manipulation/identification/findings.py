@@ -19,6 +19,7 @@ _UNITS = {
 _VAGUE_FACTOR = 0.5  # standard deviation of a logarithm, from which on a value is not told
 _VAGUE_ANGLE = math.radians(5.0)
 _TORSION_MATTERS = 0.1  # relative change of the mean distance
+_CURVATURE_MATTERS = 0.1  # likewise
 _ANOTHER_CLIP = 1.5  # times the error inside, from which on the fit does not carry over
 
 
@@ -31,6 +32,8 @@ def values(found: Identification) -> List[List[str]]:
         if name in MATERIAL:
             value = f"{math.exp(number):.4g} {_UNITS[name]}"
             spread = f"{100.0 * deviation:.1f} %"
+        elif name.startswith("natural"):
+            value, spread = f"{number:.3f} 1/m", f"{deviation:.3f} 1/m"
         else:
             value, spread = f"{math.degrees(number):.2f} deg", f"{math.degrees(deviation):.2f} deg"
         rows.append([name, value, "not known" if math.isnan(deviation) else spread])
@@ -54,13 +57,15 @@ def statements(found: Identification) -> Iterator[str]:
             low, high = (math.exp(number + sign * 2.0 * deviation) for sign in (-1, 1))
             unit = _UNITS[name]
             yield f"The data do not tell {name}: {low:.2g} to {high:.2g} {unit} suit as well."
-        elif name not in MATERIAL and deviation > _VAGUE_ANGLE:
+        elif name.startswith("aim") and deviation > _VAGUE_ANGLE:
             degrees = math.degrees(deviation)
             yield f"The data do not tell the {name}: its deviation is {degrees:.0f} deg."
     if any(math.isnan(deviation) for deviation in found.fit.deviations):
         yield "Too few windows for standard deviations: record more, or use a shorter --window."
     if "torsion_modulus" not in found.parameters.material:
         yield _about_torsion(found.torsion)
+    if found.straight is not None:
+        yield _about_curvature(found.straight)
     if not found.fit.converged:
         yield "The search was stopped before it came to rest: start from object.yaml once more."
     if found.left_out is not None:
@@ -73,6 +78,18 @@ def _about_torsion(changes: Sequence[float]) -> str:
     return (
         f"A third of the torsion modulus changes the mean distance by {less}, three times as much "
         f"by {more}: the data {'tell' if told else 'do not tell'} torsion, which was not fitted."
+    )
+
+
+def _about_curvature(change: float) -> str:
+    verdict = (
+        "keep it"
+        if change > _CURVATURE_MATTERS
+        else "leave natural_curvature out, the rope is as good as straight"
+    )
+    return (
+        "Without natural curvature, and all else fitted anew, the mean distance changes by "
+        f"{100.0 * change:+.1f} %: {verdict}."
     )
 
 

@@ -32,6 +32,11 @@ class Cable:
     def __init__(
         self, spec: RodSpec, agents: Sequence[AgentSpec], gravity: Vector, rest, time_step: float
     ):
+        if spec.natural_shape is not None or spec.point_masses:
+            raise WorldError(
+                "knowledge.world: mujoco has straight rods without point masses: remove "
+                "object.natural_shape and object.point_masses, or use knowledge.world: own"
+            )
         if spec.drag_coefficient > 0.0 or spec.stretch != "zero":
             raise WorldError(
                 "knowledge.world: mujoco has no air drag and no stretch of rods: remove "
