@@ -28,7 +28,7 @@ Rod::Rod(const RodParameters& parameters)
   State& s = *state_;
   for (std::vector<double>* each :
        {&s.inverse_mass, &s.inverse_transverse, &s.inverse_axial, &s.transverse_inertia, &s.inertia_excess,
-        &s.inertia_ratio, &s.drag, &s.weight_moment, &s.arm, &s.offset, &s.linear_rate}) {
+        &s.inertia_ratio, &s.drag, &s.weight_moment, &s.arm_before, &s.arm_after, &s.offset, &s.linear_rate}) {
     each->resize(n);
   }
   s.angular_rate.resize(n);
@@ -141,7 +141,8 @@ void Rod::placeMasses() {
     const bool is_held = std::any_of(holds().begin(), holds().end(), holds_it);
     s.offset[i] = is_held ? 0.0 : masses_->moment[i] / mass;
     s.weight_moment[i] = is_held ? masses_->moment[i] : 0.0;
-    s.arm[i] = 0.5 * p.segmentLength() + std::abs(s.offset[i]);
+    s.arm_before[i] = 0.5 * p.segmentLength() + s.offset[i];
+    s.arm_after[i] = 0.5 * p.segmentLength() - s.offset[i];
     const double transverse = p.transverseInertia() + (masses_->inertia[i] - mass * s.offset[i] * s.offset[i]);
     s.inverse_mass[i] = 1.0 / mass;
     s.inverse_transverse[i] = 1.0 / transverse;

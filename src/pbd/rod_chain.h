@@ -107,7 +107,7 @@ class RodChain {
   DM_INLINE ChainFront begin() const {
     Placement segment = pack_.placement(0);
     Vec3 d = tangentOf(segment.q);
-    return {segment, d, inertia(0, d), Vec3{}, crossMatrix(arm(0) * d), Symmetric3{}, Vec3{}};
+    return {segment, d, inertia(0, d), Vec3{}, crossMatrix(armAfter(0) * d), Symmetric3{}, Vec3{}};
   }
 
   //! Eliminates the rotation of segment j and the force of joint j.
@@ -139,7 +139,7 @@ class RodChain {
     Matrix3 a_inverse_r = a_inverse * front.r;
     Symmetric3 n = addOuter(transposedMultiplyAdd(front.r, a_inverse_r, front.n + compliance(j)),
                             broadcast(in_.axial_compliance), joint.d0);
-    Matrix3 lever = crossMatrix(arm(j + 1) * d);
+    Matrix3 lever = crossMatrix(armBefore(j + 1) * d);
     Matrix3 h = multiplyAdd(k, a_inverse_r, lever);
     Symmetric3 p = active ? inverse(n) : Symmetric3{};
     Symmetric3 series = k - transposedTimesSymmetric(toMatrix(k), a_inverse * toMatrix(k));
@@ -154,7 +154,7 @@ class RodChain {
             d,
             multiplyTransposedAdd(v, h, inertia(j + 1, d) + series),
             multiplyAdd(h, -force, multiplyAdd(k, turn, -elasticity.sigma)),
-            multiplyAdd(inverse_mass, v, lever),
+            multiplyAdd(inverse_mass, v, plain ? lever : crossMatrix(armAfter(j + 1) * d)),
             (-inverse_mass * inverse_mass) * p,
             inverse_mass * force};
   }
@@ -185,14 +185,16 @@ class RodChain {
   //! Inertia, and what tension resists to turning across the axis (geometric stiffness, times h^2). Without it a
   //! chain pulled taut would swing ever wider.
   DM_INLINE Symmetric3 inertia(int i, const Vec3& d) const {
-    Pack tension = arm(i) * dot(d, pack_.lastForce(i - 1) + pack_.lastForce(i));
+    Pack tension = plain ? half_length_ * dot(d, pack_.lastForce(i - 1) + pack_.lastForce(i))
+                         : armBefore(i) * dot(d, pack_.lastForce(i - 1)) + armAfter(i) * dot(d, pack_.lastForce(i));
     tension = tension > Pack{} ? tension : Pack{};
     return addOuter(isotropic(broadcast(in_.transverse_inertia[i]) + tension),
                     broadcast(in_.inertia_excess[i]) - tension, d);
   }
 
-  //! From a segment's position to its joints.
-  DM_INLINE Pack arm(int i) const { return plain ? half_length_ : broadcast(in_.arm[i]); }
+  //! From the joint before a segment to its position, and from there to the joint after it.
+  DM_INLINE Pack armBefore(int i) const { return plain ? half_length_ : broadcast(in_.arm_before[i]); }
+  DM_INLINE Pack armAfter(int i) const { return plain ? half_length_ : broadcast(in_.arm_after[i]); }
 
   DM_INLINE Vec3 gapAt(int j, const Joint& joint, const Vec3& x0, const Vec3& x1) const {
     return plain ? gapOf(joint, x0, x1, half_length_) : pack_.unevenGap(j, joint, x0, x1);

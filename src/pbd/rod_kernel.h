@@ -65,7 +65,8 @@ struct RodSubstepInput {
   const double* inertia_ratio;               // [N] (axial - transverse) / transverse moment of inertia
   const double* drag;                        // [N] 1/m, speed across the axis that is lost per way through air
   const double* weight_moment;               // [N] kg m, of mass off the centre that a pinned segment turns about
-  const double* arm;                         // [N] m, from where a segment's position is to its joints
+  const double* arm_before;                  // [N] m, from the joint before a segment to its position
+  const double* arm_after;                   // [N] m, from there to the joint after it
   bool plain;                                // whether the rod is straight by nature and all arms are l / 2
   const double* natural_ahead;               // [(N - 1) x 3] see NaturalJoints; null: straight by nature
   const double* natural_behind;              // [(N - 1) x 3]

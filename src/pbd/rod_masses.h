@@ -7,13 +7,12 @@
 namespace deformable_manipulation {
 namespace pbd {
 
-//! The masses of a rod's segments with the point masses that they carry (docs/mathematics.md, "Mass at points").
-//! A mass is shared by the two segments between whose centres it lies, in proportion to its nearness. Before the first
-//! centre and beyond the last one it belongs to that segment, whose centre of mass then is off its centre.
+//! The masses of a rod's segments with the point masses that they carry, each where it is in its segment
+//! (docs/mathematics.md, "Mass at points").
 struct SegmentMasses {
   std::vector<double> relative;  //!< [N] mass over that of the segment alone
   std::vector<double> before;    //!< [N + 1] sums of them, from the first segment: before[i] without that of segment i
-  std::vector<double> moment;    //!< [N] kg m, of masses off the centre, along the tangent; not zero at the ends alone
+  std::vector<double> moment;    //!< [N] kg m, of masses off the centre, along the tangent
   std::vector<double> inertia;   //!< [N] kg m^2, what these add across the axis, about the centre
 };
 

@@ -38,7 +38,8 @@ class RodPack {
 
   //! How far the two segments' ends at joint j are apart, where their arms may differ.
   DM_INLINE Vec3 unevenGap(int j, const Joint& joint, const Vec3& x0, const Vec3& x1) const {
-    return scaleAdd(broadcast(in_.arm[j]), joint.d0, scaleAdd(broadcast(in_.arm[j + 1]), joint.d1, x0 - x1));
+    return scaleAdd(broadcast(in_.arm_after[j]), joint.d0,
+                    scaleAdd(broadcast(in_.arm_before[j + 1]), joint.d1, x0 - x1));
   }
 
   //! The vectors that joint j between two orientations brings together; for rods that are not straight by nature.

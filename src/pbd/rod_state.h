@@ -32,7 +32,7 @@ struct Rod::State {
   LaneGroups<RodLanes, HeldSegment> groups;
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
   std::vector<double> transverse_inertia, inertia_excess, inertia_ratio, drag;
-  std::vector<double> weight_moment, arm;
+  std::vector<double> weight_moment, arm_before, arm_after;
   std::vector<double> offset;  // [N] m, from a segment's centre to its position in the lanes, along its tangent
   std::vector<unsigned char> joint_active;
   std::vector<double> linear_rate, angular_rate;
@@ -54,7 +54,8 @@ struct Rod::State {
     input.inertia_ratio = inertia_ratio.data();
     input.drag = drag.data();
     input.weight_moment = weight_moment.data();
-    input.arm = arm.data();
+    input.arm_before = arm_before.data();
+    input.arm_after = arm_after.data();
     input.joint_active = joint_active.data();
     input.linear_rate = linear_rate.data();
     input.angular_rate = angular_rate.data();

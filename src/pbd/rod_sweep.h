@@ -84,8 +84,8 @@ class RodSweep {
     Inverse i1 = inverseOf(j + 1);
     Joint joint = pack_.joint(j, first.q, tangentOf(first.q), second.q, tangentOf(second.q));
     Strain strain = strainOf(joint, rotationBetween(first.q, second.q));
-    const Pack arm0 = arm(j);
-    const Pack arm1 = arm(j + 1);
+    const Pack arm0 = armAfter(j);
+    const Pack arm1 = armBefore(j + 1);
     const Pack lever0 = arm0 * i0.transverse;
     const Pack lever1 = arm1 * i1.transverse;
 
@@ -128,11 +128,12 @@ class RodSweep {
   //! How far the joint after a segment will turn it, as in the last substep: a rod at rest has no rate of strain.
   DM_INLINE Vec3 turnToCome(int i, const Inverse& inverse, const Vec3& d) const {
     JointWrench next = pack_.lastWrench(i);
-    return applyInverseInertia(inverse, d, crossAdd(arm(i) * d, next.force, next.torque));
+    return applyInverseInertia(inverse, d, crossAdd(armAfter(i) * d, next.force, next.torque));
   }
 
-  //! From a segment's position to its joints.
-  DM_INLINE Pack arm(int i) const { return plain ? half_length_ : broadcast(in_.arm[i]); }
+  //! From the joint before a segment to its position, and from there to the joint after it.
+  DM_INLINE Pack armBefore(int i) const { return plain ? half_length_ : broadcast(in_.arm_before[i]); }
+  DM_INLINE Pack armAfter(int i) const { return plain ? half_length_ : broadcast(in_.arm_after[i]); }
 
   //! l times the strain of a joint with a natural shape: that of the torque of its pairs. What of this is along the
   //! tangent meets the compliance of twist.

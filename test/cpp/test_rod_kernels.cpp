@@ -39,7 +39,8 @@ class RodInput {
     drag_.assign(kSegments, viscous ? 0.5 : 0.0);
     in_.drag = drag_.data();
     in_.weight_moment = zero_.data();
-    in_.arm = arm_.data();
+    in_.arm_before = before_.data();
+    in_.arm_after = after_.data();
     in_.plain = !natural;
     if (natural) {
       describeNaturalShape();
@@ -76,7 +77,8 @@ class RodInput {
  private:
   //! Bent and twisted by nature, with a heavy segment in the middle.
   void describeNaturalShape() {
-    arm_[6] = 0.0501;
+    before_[6] = 0.0505;
+    after_[6] = 0.0495;
     inverse_mass_[6] *= 0.3;
     for (int j = 0; j + 1 < kSegments; ++j) {
       ahead_.insert(ahead_.end(), {std::cos(0.03), std::sin(0.03), 0.0});
@@ -97,7 +99,8 @@ class RodInput {
   std::vector<double> transverse_inertia_ = std::vector<double>(kSegments, kTransverse);
   std::vector<double> inertia_excess_ = std::vector<double>(kSegments, kAxial - kTransverse);
   std::vector<double> ratio_ = std::vector<double>(kSegments, kAxial / kTransverse - 1.0);
-  std::vector<double> arm_ = std::vector<double>(kSegments, 0.05);
+  std::vector<double> before_ = std::vector<double>(kSegments, 0.05);
+  std::vector<double> after_ = std::vector<double>(kSegments, 0.05);
   std::vector<double> drag_;
   std::vector<double> rate_ = std::vector<double>(kSegments, 0.95 / 0.002);
   std::vector<double> zero_ = std::vector<double>(3 * kSegments, 0.0);

@@ -184,6 +184,10 @@ def test_a_fabric_is_not_refined():
 def test_a_rod_that_the_engine_does_not_have():
     with pytest.raises(WorldError, match="object.drag_coefficient"):
         ClosedLoop(scenario(**{"object.drag_coefficient": 1.2}))
+    with pytest.raises(WorldError, match="object.natural_shape"):
+        ClosedLoop(scenario(**{"object.natural_shape": {"twist": 0.5}}))
+    with pytest.raises(WorldError, match="object.point_masses"):
+        ClosedLoop(scenario(**{"object.point_masses": [{"at": 0.5, "mass": 0.1}]}))
 
 
 def test_without_the_engine_it_is_said_how_to_get_it(monkeypatch, tmp_path, capsys):

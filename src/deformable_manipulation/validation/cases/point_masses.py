@@ -26,18 +26,19 @@ from deformable_manipulation.validation.rod import (
 
 TITLE = "Mass at points"
 METHOD = """*Chain*: a limp rope (E 10 kPa) of the paper's sizes, pinned 1.5 m apart, carries
-0.1 kg, two thirds of its own mass, at 0.7 m. Theory: two catenaries. *Cantilever*: a rod of 1 m
-(E 3 GPa) with a plug of 0.05 kg at its tip. Theory: the elastica with a weight at its end.
-*Pendulum*: a stiff rod (E 3 TPa) of 1 m, pinned at its first segment, with a plug of 0.2 kg at
-its free end, swings by 1 mm without damping. Theory: the period of a rigid pendulum."""
+0.1 kg, two thirds of its own mass, at a joint, two sevenths of its length from one end. Theory:
+two catenaries. *Cantilever*: a rod of 1 m (E 3 GPa) with a plug of 0.05 kg at its tip. Theory:
+the elastica with a weight at its end. *Pendulum*: a stiff rod (E 3 TPa) of 1 m, pinned at its
+first segment, with a plug of 0.2 kg at its free end, swings by 1 mm without damping. Theory:
+the period of a rigid pendulum."""
 GRIP = (1.5, 0.0)
-CHAIN = (0.7, 0.1)  # m, kg
+CHAIN = (ROPE.length * 2.0 / 7.0, 0.1)  # m, kg
 PLUG = 0.05  # kg, at the cantilever's tip
 BOB = 0.2  # kg, at the pendulum's end
 ROD = RodProperties(1.0, young_modulus=3e9, torsion_modulus=1e9)
 SEGMENTS = (28, 56, 112)
-TOLERANCE = {"chain": 0.8, "cantilever": 0.05}  # % at 28 segments
-FORCE_TOLERANCE = 2.2  # % at 28 segments
+TOLERANCE = {"chain": 0.04, "cantilever": 0.05}  # % at 28 segments
+FORCE_TOLERANCE = 0.2  # % at 28 segments
 PERIOD_TOLERANCE = 0.1  # %
 
 
