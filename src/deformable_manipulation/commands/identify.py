@@ -26,14 +26,16 @@ FITTED = (
     "bending_retardation_time",
     "drag_coefficient",
     "damping",
+    "natural_curvature",
     "aim",
 )
 USUAL = ("young_modulus", "bending_retardation_time", "aim")
 DESCRIPTION = """Fit a simulated rope or rod to recordings of a real one: bending stiffness over
-mass, damping, and the angles at which the grippers hold it. Windows of all recordings are
-replayed; a coarse grid comes first, then robust least squares. Prints values with standard
-deviations, what the data do not tell, and how well recordings are predicted that are left out of
-the fit. Writes object.yaml (a section object), report.md and identification.json."""
+mass, damping, the curvature without load, and the angles at which the grippers hold it. Windows
+of all recordings are replayed; a coarse grid comes first, then robust least squares. Prints
+values with standard deviations, what the data do not tell, and how well recordings are
+predicted that are left out of the fit. Writes object.yaml (a section object), report.md and
+identification.json."""
 EPILOG = """examples:
   identify swing_*.csv --object my_rope.yaml
   identify swing.csv --object my_rope.yaml --fit young_modulus,damping --window 2
@@ -69,7 +71,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 def _identify(arguments, measured) -> int:
     from deformable_manipulation.campaign.workers import cores
     from deformable_manipulation.identification.identify import identify
-    from deformable_manipulation.identification.parameters import AIM, Parameters
+    from deformable_manipulation.identification.parameters import AIM, CURVATURE, Parameters
     from deformable_manipulation.identification.problem import windows_of
     from deformable_manipulation.identification.workers import worker_map
     from deformable_manipulation.replaying.measured_shapes import read_measured_shapes
@@ -83,9 +85,14 @@ def _identify(arguments, measured) -> int:
         solver=measured.solver,
         substeps=measured.substeps,
     )
-    material = tuple(name for name in arguments.fit if name != AIM)
+    material = tuple(name for name in arguments.fit if name not in (AIM, CURVATURE))
     grips = len(held) if AIM in arguments.fit else 0
-    parameters = Parameters(measured.spec, material, grips)
+    curved = CURVATURE in arguments.fit
+    shape = measured.spec.natural_shape
+    if curved and shape is not None and shape.points:
+        fail(NAME, "object.natural_shape has points: --fit natural_curvature needs numbers")
+        return 1
+    parameters = Parameters(measured.spec, material, grips, curved)
     windows = windows_of(recordings, parameters, options, arguments.window)
     folder = writable_folder(arguments.output or Path("output/identification"))
     progress = ProgressDisplay(sys.stderr)

@@ -19,6 +19,7 @@ _UNITS = {
 _VAGUE_FACTOR = 0.5  # standard deviation of a logarithm, from which on a value is not told
 _VAGUE_ANGLE = math.radians(5.0)
 _TORSION_MATTERS = 0.1  # relative change of the mean distance
+_CURVATURE_MATTERS = 0.1  # likewise
 _ANOTHER_CLIP = 1.5  # times the error inside, from which on the fit does not carry over
 
 
@@ -39,6 +40,8 @@ def _found(found: Identification) -> Iterator[Tuple[str, float, float, bool]]:
 def _value(name: str, number: float) -> str:
     if name in MATERIAL:
         return f"{math.exp(number):.4g} {_UNITS[name]}".strip()
+    if name.startswith("natural"):
+        return f"{number:.3f} 1/m"
     return f"{math.degrees(number):.2f} deg"
 
 
@@ -47,6 +50,8 @@ def _spread(name: str, deviation: float, at_bound: bool) -> str:
         return "at the bound of the search"
     if math.isnan(deviation):
         return "not known"
+    if name.startswith("natural"):
+        return f"+- {deviation:.3f} 1/m"
     percent, degrees = 100.0 * deviation, math.degrees(deviation)
     return f"+- {percent:.1f} %" if name in MATERIAL else f"+- {degrees:.2f} deg"
 
@@ -73,13 +78,15 @@ def statements(found: Identification) -> Iterator[str]:
             low, high = (math.exp(number + sign * 2.0 * deviation) for sign in (-1, 1))
             unit = _UNITS[name]
             yield f"The data do not tell {name}: {low:.2g} to {high:.2g} {unit} suit as well."
-        elif name not in MATERIAL and deviation > _VAGUE_ANGLE:
+        elif name.startswith("aim") and deviation > _VAGUE_ANGLE:
             degrees = math.degrees(deviation)
             yield f"The data do not tell the {name}: its deviation is {degrees:.0f} deg."
     if any(math.isnan(deviation) for deviation in found.fit.deviations):
         yield "Too few windows for standard deviations: record more, or use a shorter --window."
     if "torsion_modulus" not in found.parameters.material:
         yield _about_torsion(found.torsion)
+    if found.straight is not None:
+        yield _about_curvature(found.straight)
     if not found.fit.converged:
         yield "The search was stopped before it came to rest: start from object.yaml once more."
     if found.left_out is not None:
@@ -92,6 +99,18 @@ def _about_torsion(changes: Sequence[float]) -> str:
     return (
         f"A third of the torsion modulus changes the mean distance by {less}, three times as much "
         f"by {more}: the data {'tell' if told else 'do not tell'} torsion, which was not fitted."
+    )
+
+
+def _about_curvature(change: float) -> str:
+    verdict = (
+        "keep it"
+        if change > _CURVATURE_MATTERS
+        else "leave natural_curvature out, the rope is as good as straight"
+    )
+    return (
+        "Without natural curvature, and all else fitted anew, the mean distance changes by "
+        f"{100.0 * change:+.1f} %: {verdict}."
     )
 
 

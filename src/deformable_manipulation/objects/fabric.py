@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
@@ -116,6 +116,10 @@ class FabricSpec(ObjectSpec):
         """A vertex of the undeformed fabric [m], in the fixed frame."""
         offset = rotate(self.pose.orientation, self.vertices[particle])
         return tuple(p + o for p, o in zip(self.pose.position, offset))
+
+    def particle_orientation(self, particle: int) -> Quaternion:
+        """See :meth:`.ObjectSpec.particle_orientation`."""
+        return self.pose.orientation
 
     def free_length(self, first: int, second: int) -> float:
         """The shortest way [m] between two vertices over the surface."""

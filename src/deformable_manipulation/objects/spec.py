@@ -5,7 +5,7 @@ from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.reading.plain import plain
 
 
@@ -60,6 +60,10 @@ class ObjectSpec(ABC):
     @abstractmethod
     def particle_position(self, particle: int) -> Vector:
         """Position [m] of a particle on the undeformed object, in the fixed frame."""
+
+    @abstractmethod
+    def particle_orientation(self, particle: int) -> Quaternion:
+        """Orientation of a particle on the undeformed object, in the fixed frame."""
 
     @abstractmethod
     def free_length(self, first: int, second: int) -> float:

@@ -43,6 +43,16 @@ def _check_cable(report: Report, rod: RodSpec, refinement: int) -> None:
             "must be zero in the world mujoco, whose rods do not stretch",
             show(rod.stretch),
         )
+    if rod.natural_shape is not None:
+        report.add(
+            ("object", "natural_shape"),
+            "must be left out in the world mujoco, whose rods are straight without load",
+        )
+    if rod.point_masses:
+        report.add(
+            ("object", "point_masses"),
+            "must be left out in the world mujoco, whose rods carry no masses at points",
+        )
 
 
 def _check_sheet(report: Report, fabric: FabricSpec) -> None:

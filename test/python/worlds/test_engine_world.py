@@ -187,6 +187,8 @@ def test_a_fabric_is_not_refined():
     [
         (SHORT_ROPE, {"object.drag_coefficient": 1.2}, "object.drag_coefficient: 1.2 .* must be 0"),
         (SHORT_ROPE, {"object.stretch": "from_moduli"}, "object.stretch: .* must be zero"),
+        (SHORT_ROPE, {"object.natural_shape": {"twist": 0.5}}, "object.natural_shape: .* straight"),
+        (SHORT_ROPE, {"object.point_masses": [{"at": 0.5, "mass": 0.1}]}, "object.point_masses: "),
         ("rope_one_assistant", {"knowledge.refinement": 99}, "refinement: 99 .* makes 2772 pieces"),
         (SMALL_FABRIC, {"object.bending_compliance": 0}, "bending_compliance: 0.0 .* above 0"),
         ("fabric_three_assistants", {"object.resolution": 25}, "object: has 2601 vertices"),
