@@ -26,7 +26,6 @@ _FOREKNOWN = ("--foreknowledge",)
 _BESIDE: Tuple[Tuple[str, Sequence[str], Dict[str, int]], ...] = (
     ("paper", _PAPER, {_ROPE: 40, _TWO: 20}),
     ("horizon of 3 s", _FOREKNOWN, {_ROPE: 125, _TWO: 50}),
-    ("its path announced", _ANNOUNCED, {_TWO: 50}),
 )
 
 Row = Tuple[str, str, float]  # scenario, kind of path, speed
@@ -50,20 +49,22 @@ def measure_fast_leaders(say: Say) -> Dict[str, str]:
 
 def measure_fast_leaders_beside(say: Say) -> Dict[str, str]:
     """Return the table ``fast_leaders_beside``: the paper, and who could have answered at all."""
-    paper, horizon, announced = (_measured(options, runs, say) for _, options, runs in _BESIDE)
+    paper, horizon = (_measured(options, runs, say) for _, options, runs in _BESIDE)
     rows = []
     for row in paper:
         name, path, speed = row
-        cells = [_cell(column.get(row)) for column in (paper, horizon, announced)]
-        answers = horizon[row]["answers"] if row in horizon else None
-        counts = ""
-        if answers is not None:
-            counts = "; ".join(str(answers[one]) for one in ("impossible", "possible", "unknown"))
-        rows.append([f"`{name}`", f"{path}, {speed:g} m/s", cells[0], cells[1], counts, cells[2]])
+        cells = [_cell(column.get(row)) for column in (paper, horizon)]
+        rows.append([f"`{name}`", f"{path}, {speed:g} m/s", *cells, _answers(horizon.get(row))])
     titles = [title for title, _, _ in _BESIDE]
     answered = "of the missed: impossible; possible; not known"
-    header = ["scenario", "leader", titles[0], titles[1], answered, titles[2]]
-    return {"fast_leaders_beside": table(header, rows)}
+    return {"fast_leaders_beside": table(["scenario", "leader", *titles, answered], rows)}
+
+
+def _answers(summary) -> str:
+    """How many of the runs that missed a limit anybody could have answered."""
+    if summary is None:
+        return ""
+    return "; ".join(str(summary["answers"][one]) for one in ("impossible", "possible", "unknown"))
 
 
 def _measured(options: Sequence[str], runs: Dict[str, int], say: Say) -> Dict[Row, Dict]:
