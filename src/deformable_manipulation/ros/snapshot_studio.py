@@ -147,8 +147,8 @@ class SnapshotStudio:
         )
         with contextlib.closing(MarkerWatch(self.run.state.header.stamp)) as watch:
             self._await_markers(view.program, watch, publishers, timeout)
-        same_looks = same_looks_after(time.monotonic() - started)
-        return self._await_rest(view.program, timeout, same_looks=same_looks, **looks)
+        same_looks = max(looks.get("same_looks", 0), same_looks_after(time.monotonic() - started))
+        return self._await_rest(view.program, timeout, **{**looks, "same_looks": same_looks})
 
     def _await_markers(self, rviz, watch, publishers, timeout):
         def are_drawn():
