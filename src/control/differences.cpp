@@ -1,6 +1,7 @@
 #include "deformable_manipulation/control/differences.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 namespace deformable_manipulation {
@@ -55,6 +56,7 @@ void Differences::updateAgent(int index, const ObservationView& observation) {
   if (own == 0) {
     agent.known = false;
     agent.rates.setZero();
+    agent.parting.resize(0, 0);
   } else if (!usable_.empty()) {
     agent.known = agent.known || static_cast<int>(usable_.size()) == own;
     fill(agent, observation);
@@ -96,6 +98,9 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
       agent.rates.row(axis) += agent.inverse(axis, i) * change_.row(i);
     }
   }
+  explained_.noalias() = agent.inverse * change_.leftCols(size);
+  agent.parting = change_.leftCols(size);
+  agent.parting.noalias() -= directions_ * explained_;
 }
 
 void Differences::takeResponse(std::vector<double>& to) const {
@@ -135,6 +140,7 @@ void Differences::takeGradients(const distance::Distances& distances, Features& 
   features.take({distances}, static_cast<int>(agents_.size()));
   for (int m = 0; m < features.size(); ++m) {
     const distance::Feature& feature = distances.features[m];
+    features.parting[m] = partingOf(feature, features.normal[m]);
     for (int agent = 0; agent < features.agents(); ++agent) {
       for (int k = 0; k < 3 && agent != leader_; ++k) {
         const auto rates = agents_[agent].rates.middleCols<3>(3L * feature.vertices[k]);
@@ -143,6 +149,21 @@ void Differences::takeGradients(const distance::Distances& distances, Features& 
     }
   }
   features.completeLeader(leader_);
+}
+
+//! [m] The greatest of all copies, along the normal.
+double Differences::partingOf(const distance::Feature& feature, const Vector3& normal) const {
+  double greatest = 0.0;
+  for (const Agent& agent : agents_) {
+    for (Eigen::Index copy = 0; copy < agent.parting.rows(); ++copy) {
+      double parting = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        parting += feature.weights[k] * agent.parting.row(copy).segment<3>(3L * feature.vertices[k]).dot(normal);
+      }
+      greatest = std::max(greatest, std::abs(parting));
+    }
+  }
+  return greatest;
 }
 
 void Differences::takeMinimum(const distance::Distances& distances, Features& features) const {

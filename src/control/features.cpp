@@ -13,6 +13,7 @@ void Features::clear() {
   obstacle_velocity.clear();
   identity.clear();
   disturbance.clear();
+  parting.clear();
   gradients_.clear();
   turns_.clear();
 }
@@ -29,6 +30,7 @@ void Features::take(const ChosenFeatures& chosen, int agents) {
     identity.push_back(feature.identity);
   }
   disturbance.assign(count, 0.0);
+  parting.assign(count, 0.0);
   gradients_.assign(static_cast<std::size_t>(count) * agents, Vector3::Zero());
 }
 
@@ -39,6 +41,7 @@ void Features::add(double signed_distance, const Vector3& direction, std::int64_
   obstacle_velocity.push_back(Vector3::Zero());
   identity.push_back(of);
   disturbance.push_back(0.0);
+  parting.push_back(0.0);
   gradients_.insert(gradients_.end(), gradients.begin(), gradients.end());
 }
 

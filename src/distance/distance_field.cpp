@@ -85,42 +85,6 @@ DistanceField::Level DistanceField::merged(const Level& below, int stride) {
   return level;
 }
 
-DistanceField::Index DistanceField::cellOf(const Vector3& point) const {
-  Index cell;
-  for (int axis = 0; axis < 3; ++axis) {
-    // Not below 0, so that what is behind the point is cut off downwards.
-    cell[axis] = static_cast<int>(std::min(std::max(point[axis] * inverse_[axis], 0.0), size_[axis] - 2.0));
-  }
-  return cell;
-}
-
-CellExpansion DistanceField::expand(const Index& cell, const Vector3& point) const {
-  // Values at the cell's corners become the coefficients of 1, z, y, yz, x, xz, xy, xyz from its lowest corner.
-  const std::size_t row = size_[2], layer = row * size_[1];
-  const float* lowest = values_.data() + cell[0] * layer + cell[1] * row + cell[2];
-  std::array<double, 8> c = {lowest[0],     lowest[1],         lowest[row],         lowest[row + 1],
-                             lowest[layer], lowest[layer + 1], lowest[layer + row], lowest[layer + row + 1]};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int bit = 4 >> axis;
-    for (int corner = 0; corner < 8; ++corner) {
-      if ((corner & bit) != 0) {
-        c[corner] = (c[corner] - c[corner ^ bit]) * inverse_[axis];
-      }
-    }
-  }
-  const double x = point.x() - spacing_.x() * cell[0], y = point.y() - spacing_.y() * cell[1],
-               z = point.z() - spacing_.z() * cell[2];
-  CellExpansion f;
-  f.xyz = c[7];
-  f.xy = c[6] + c[7] * z;
-  f.zx = c[5] + c[7] * y;
-  f.yz = c[3] + c[7] * x;
-  f.gradient = {c[4] + c[6] * y + c[5] * z + c[7] * y * z, c[2] + c[6] * x + c[3] * z + c[7] * x * z,
-                c[1] + c[5] * x + c[3] * y + c[7] * x * y};
-  f.value = c[0] + c[4] * x + c[2] * y + c[1] * z + c[6] * x * y + c[5] * x * z + c[3] * y * z + c[7] * x * y * z;
-  return f;
-}
-
 //! The level whose blocks are so large that not many are between two cells.
 const DistanceField::Level& DistanceField::levelOf(const Index& from, const Index& to, int* shift) const {
   const int widest = std::max({to[0] - from[0], to[1] - from[1], to[2] - from[2]});

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "deformable_manipulation/distance/features.h"
@@ -38,10 +41,35 @@ class DistanceField {
   double steepness() const { return steepness_; }
 
   //! The cell of a point; of one outside, the nearest.
-  Index cellOf(const Vector3& point) const;
+  Index cellOf(const Vector3& point) const {
+    Index cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Not below 0, so that what is behind the point is cut off downwards.
+      cell[axis] = static_cast<int>(std::min(std::max(point[axis] * inverse_[axis], 0.0), size_[axis] - 2.0));
+    }
+    return cell;
+  }
 
   //! The function of a cell around a point, which may be outside.
-  CellExpansion expand(const Index& cell, const Vector3& point) const;
+  CellExpansion expand(const Index& cell, const Vector3& point) const {
+    const std::array<double, 8> c = coefficients(cell);
+    const Vector3 d = fromLowestCorner(cell, point);
+    CellExpansion f;
+    f.xyz = c[7];
+    f.xy = c[6] + c[7] * d.z();
+    f.zx = c[5] + c[7] * d.y();
+    f.yz = c[3] + c[7] * d.x();
+    f.gradient = {c[4] + c[6] * d.y() + c[5] * d.z() + c[7] * d.y() * d.z(),
+                  c[2] + c[6] * d.x() + c[3] * d.z() + c[7] * d.x() * d.z(),
+                  c[1] + c[5] * d.x() + c[3] * d.y() + c[7] * d.x() * d.y()};
+    f.value = valueAt(c, d);
+    return f;
+  }
+
+  //! Its value alone.
+  double value(const Index& cell, const Vector3& point) const {
+    return valueAt(coefficients(cell), fromLowestCorner(cell, point));
+  }
 
   //! A lower bound of the function in all cells between two of them, by blocks of at least one cell.
   double least(const Index& from, const Index& to) const;
@@ -50,6 +78,32 @@ class DistanceField {
   SlopeRange slopes(const Index& from, const Index& to) const;
 
  private:
+  //! Of 1, z, y, yz, x, xz, xy, xyz from the lowest corner of a cell: from the values at its corners.
+  std::array<double, 8> coefficients(const Index& cell) const {
+    const std::size_t row = size_[2], layer = row * size_[1];
+    const float* lowest = values_.data() + cell[0] * layer + cell[1] * row + cell[2];
+    std::array<double, 8> c = {lowest[0],     lowest[1],         lowest[row],         lowest[row + 1],
+                               lowest[layer], lowest[layer + 1], lowest[layer + row], lowest[layer + row + 1]};
+    for (int axis = 0; axis < 3; ++axis) {
+      const int bit = 4 >> axis;
+      for (int corner = 0; corner < 8; ++corner) {
+        if ((corner & bit) != 0) {
+          c[corner] = (c[corner] - c[corner ^ bit]) * inverse_[axis];
+        }
+      }
+    }
+    return c;
+  }
+
+  Vector3 fromLowestCorner(const Index& cell, const Vector3& point) const {
+    return {point.x() - spacing_.x() * cell[0], point.y() - spacing_.y() * cell[1], point.z() - spacing_.z() * cell[2]};
+  }
+
+  static double valueAt(const std::array<double, 8>& c, const Vector3& d) {
+    return c[0] + c[4] * d.x() + c[2] * d.y() + c[1] * d.z() + c[6] * d.x() * d.y() + c[5] * d.x() * d.z() +
+           c[3] * d.y() * d.z() + c[7] * d.x() * d.y() * d.z();
+  }
+
   //! Slopes along an axis.
   struct Slopes {
     float least = INFINITY, most = -INFINITY;

@@ -69,17 +69,24 @@ FieldSample FieldSearch::within(const CellExpansion& f, const Vector3& beyond) c
   return {distance, (f.value * along_border + beyond) / distance};
 }
 
-double FieldSearch::lowerBound(const Corners<3>& corners) const {
-  Vector3 low = corners[0], high = corners[0], sum = Vector3::Zero();
+double FieldSearch::lowerBound(const Corners<3>& corners, double enough) const {
+  Surroundings around;
+  around.low = around.high = corners[0];
+  Vector3 sum = Vector3::Zero();
   for (const Vector3& corner : corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
+    around.low = around.low.cwiseMin(corner);
+    around.high = around.high.cwiseMax(corner);
     sum += corner;
   }
-  const DistanceField::Index from = field_.cellOf(low), to = field_.cellOf(high);
-  double bound = std::max(field_.least(from, to), bySlopes(corners, sum / 3.0, low, high));
+  around.middle = sum / 3.0;
+  around.from = field_.cellOf(around.low);
+  around.to = field_.cellOf(around.high);
+  double bound = field_.least(around.from, around.to);
+  if (bound < enough) {
+    bound = std::max(bound, bySlopes(corners, around));
+  }
   if (is_free_) {
-    const Vector3 gap = (-high).cwiseMax(low - field_.extent()).cwiseMax(0.0);
+    const Vector3 gap = (-around.high).cwiseMax(around.low - field_.extent()).cwiseMax(0.0);
     return bound > 0.0 ? std::hypot(bound, gap.norm()) : bound;
   }
   Vector3 unused;
@@ -91,9 +98,9 @@ double FieldSearch::lowerBound(const Corners<3>& corners) const {
 
 //! A lower bound [m] of the field on an element: from its middle it falls no faster than the slopes around let it, and
 //! that is least at a corner.
-double FieldSearch::bySlopes(const Corners<3>& corners, const Vector3& middle, const Vector3& low,
-                             const Vector3& high) const {
-  SlopeRange slopes = field_.slopes(field_.cellOf(low), field_.cellOf(high));
+double FieldSearch::bySlopes(const Corners<3>& corners, const Surroundings& around) const {
+  const Vector3 &low = around.low, &high = around.high, &middle = around.middle;
+  SlopeRange slopes = field_.slopes(around.from, around.to);
   for (int axis = 0; axis < 3; ++axis) {
     if (high[axis] <= 0.0 || low[axis] >= field_.extent()[axis]) {
       slopes.least[axis] = slopes.most[axis] = 0.0;  // what is beyond the border is as the border
@@ -108,7 +115,7 @@ double FieldSearch::bySlopes(const Corners<3>& corners, const Vector3& middle, c
     const Vector3 arm = corner - middle;
     fall = std::min(fall, slopes.least.cwiseProduct(arm).cwiseMin(slopes.most.cwiseProduct(arm)).sum());
   }
-  return field_.expand(field_.cellOf(on_border), on_border).value + fall - 1e-9;
+  return field_.value(field_.cellOf(on_border), on_border) + fall - 1e-9;
 }
 
 FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double limit) {
@@ -119,14 +126,14 @@ FieldPlace FieldSearch::minimum(const Corners<3>& corners, int count, double lim
   for (int k = 0; k < 3; ++k) {
     whole.weights[k] = {0.0, 0.0, 0.0};
     whole.weights[k][std::min(k, count - 1)] = 1.0;
-    consider(corners[k], whole.weights[k]);
+    whole.distances[k] = consider(corners[k], whole.weights[k]);
   }
   pieces_.assign(1, whole);
   for (int n = 0; !pieces_.empty() && n < kMostPieces; ++n) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     const double goal = std::min(best_.distance - kTolerance, limit);
-    if (lowerBound(piece.corners) < goal && !cut(piece) && cellBound(piece) < goal) {
+    if (lowerBound(piece.corners, goal) < goal && !cut(piece) && cellBound(piece) < goal) {
       halve(piece);
     }
   }
@@ -209,24 +216,36 @@ void FieldSearch::divide(const Piece& piece, int from, int to, double parameter)
   for (int i = 0; i < 3; ++i) {
     weights[i] = (1.0 - parameter) * piece.weights[from][i] + parameter * piece.weights[to][i];
   }
-  consider(point, weights);
-  for (int replaced : {from, to}) {
+  const double distance = consider(point, weights);
+  const bool first_is_nearer = piece.distances[from] < piece.distances[to];
+  for (int replaced :
+       {first_is_nearer ? from : to, first_is_nearer ? to : from}) {  // the nearer half is searched first
     Piece part = piece;
     part.corners[replaced] = point;
     part.weights[replaced] = weights;
+    part.distances[replaced] = distance;
     if (count_ == 2) {
       part.corners[2] = part.corners[1];
       part.weights[2] = part.weights[1];
+      part.distances[2] = part.distances[1];
     }
     pieces_.push_back(part);
   }
 }
 
-void FieldSearch::consider(const Vector3& point, const Weights& weights) {
-  const double distance = sample(point).distance;
+//! That of sample().
+double FieldSearch::distanceAt(const Vector3& point) const {
+  const Vector3& extent = field_.extent();
+  const bool is_inside = (point.array() >= 0.0).all() && (point.array() <= extent.array()).all();
+  return is_free_ && is_inside ? field_.value(field_.cellOf(point), point) : sample(point).distance;
+}
+
+double FieldSearch::consider(const Vector3& point, const Weights& weights) {
+  const double distance = distanceAt(point);
   if (distance < best_.distance) {
     best_ = {distance, weights};
   }
+  return distance;
 }
 
 //! The mean of the corners that are as near as the best, if it is so, too.

@@ -41,7 +41,8 @@ class FieldSearch {
   double steepness() const { return std::hypot(1.0, field_.steepness()); }
 
   //! A lower bound [m] of an element's least distance.
-  double lowerBound(const Corners<3>& corners) const;
+  //! @param enough [m] it is sought no farther than it is known to be above this
+  double lowerBound(const Corners<3>& corners, double enough = INFINITY) const;
 
   //! The point with the least distance, to kTolerance; if none is below the limit [m], its distance is infinite.
   //! @param count of the corners: 2 or 3
@@ -53,16 +54,24 @@ class FieldSearch {
   struct Piece {
     Corners<3> corners;
     std::array<Weights, 3> weights;
+    std::array<double, 3> distances;  // m, at the corners
   };
 
-  double bySlopes(const Corners<3>& corners, const Vector3& middle, const Vector3& low, const Vector3& high) const;
+  //! The cells around an element, and the box around it.
+  struct Surroundings {
+    DistanceField::Index from, to;
+    Vector3 low, high, middle;
+  };
+
+  double bySlopes(const Corners<3>& corners, const Surroundings& around) const;
   double borderDistance(const Vector3& point, Vector3* gradient) const;
   FieldSample within(const CellExpansion& f, const Vector3& beyond) const;
   double cellBound(const Piece& piece) const;
   bool cut(const Piece& piece);
   void halve(const Piece& piece);
   void divide(const Piece& piece, int from, int to, double parameter);
-  void consider(const Vector3& point, const Weights& weights);
+  double distanceAt(const Vector3& point) const;
+  double consider(const Vector3& point, const Weights& weights);
   FieldPlace middle(const Corners<3>& corners) const;
 
   const DistanceField& field_;

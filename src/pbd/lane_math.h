@@ -178,6 +178,12 @@ DM_INLINE Quat rotated(const Quat& q, const Vec3& half) {
   return normalized({crossAdd(half, q.v, scaleAdd(q.w, half, q.v)), dotAdd(-half, q.v, q.w)});
 }
 
+//! v turned by q.
+DM_INLINE Vec3 rotatedBy(const Quat& q, const Vec3& v) {
+  const Vec3 t = broadcast(2.0) * cross(q.v, v);
+  return crossAdd(q.v, t, scaleAdd(q.w, t, v));
+}
+
 //! The x axis of the frame q in the fixed frame: a segment's tangent.
 DM_INLINE Vec3 tangentOf(const Quat& q) {
   const Pack y2 = q.v.y + q.v.y;

@@ -30,18 +30,24 @@ void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double
                  double axial_inertia, double* velocity, double* angular_velocity) {
   Vector3 centre = Vector3::Zero();
   Vector3 drift = Vector3::Zero();
+  double total = 0.0;
   for (const SegmentMotion& segment : segments) {
-    centre += segment.position / segments.size();
-    drift += segment.velocity / segments.size();
+    total += segment.relative_mass;
+  }
+  for (const SegmentMotion& segment : segments) {
+    centre += segment.position / (total / segment.relative_mass);
+    drift += segment.velocity / (total / segment.relative_mass);
   }
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Vector3 angular_momentum = Vector3::Zero();
   for (const SegmentMotion& segment : segments) {
     const Vector3 arm = segment.position - centre;
-    const Eigen::Matrix3d own = transverse_inertia * Eigen::Matrix3d::Identity() +
-                                (axial_inertia - transverse_inertia) * segment.tangent * segment.tangent.transpose();
-    inertia += own + mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    angular_momentum += own * segment.angular_velocity + mass * arm.cross(segment.velocity - drift);
+    const double across = transverse_inertia + segment.added_inertia;
+    const double own_mass = segment.relative_mass * mass;
+    const Eigen::Matrix3d own =
+        across * Eigen::Matrix3d::Identity() + (axial_inertia - across) * segment.tangent * segment.tangent.transpose();
+    inertia += own + own_mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    angular_momentum += own * segment.angular_velocity + own_mass * arm.cross(segment.velocity - drift);
   }
   const Vector3 spin = inertia.ldlt().solve(angular_momentum);
   for (std::size_t i = 0; i < segments.size(); ++i) {

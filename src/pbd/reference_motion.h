@@ -16,13 +16,16 @@ void carriedMotion(const std::vector<HeldPoint>& holds, int n, double* velocity,
 
 //! A rod's segment as a rigid body.
 struct SegmentMotion {
-  Vector3 position;  // m
+  double relative_mass;  // over that of a plain segment
+  double added_inertia;  // kg m^2, across the axis
+  Vector3 position;      // m
   Vector3 tangent;
   Vector3 velocity;          // m/s
   Vector3 angular_velocity;  // rad/s
 };
 
-//! The rigid motion with the same momentum and angular momentum as a free chain of equal segments.
+//! The rigid motion with the same momentum and angular momentum as a free chain of segments.
+//! @param mass, transverse_inertia, axial_inertia  of a plain segment
 void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia,
                  double axial_inertia, double* velocity, double* angular_velocity);
 

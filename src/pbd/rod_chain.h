@@ -41,6 +41,22 @@ DM_INLINE Elasticity elasticityOf(const Joint& joint, double bending, double tor
           scaleAdd(torque * joint.twist, joint.sum, broadcast(bending) * joint.normal)};
 }
 
+//! K of one of the pairs of a joint with a natural shape, as that of two tangents.
+DM_INLINE Symmetric3 pairStiffness(const Vec3& a, const Vec3& b, const Pack& bending) {
+  const Pack relief = (-0.5 * bending) * reciprocal(largerOf(1.0 + dot(a, b), broadcast(kLeastLean)));
+  return addOuter(addOuter(isotropic(bending), relief, cross(a, b)), relief, a + b);
+}
+
+DM_INLINE Elasticity naturalElasticity(const Joint& joint, const NaturalJoint& natural, double bending,
+                                       double torsion) {
+  const Pack half = broadcast(0.5 * bending);
+  const Vec3 axis = joint.axis();
+  const Vec3 moment = crossAdd(natural.c0, joint.d1, cross(joint.d0, natural.c1));
+  return {addOuter(pairStiffness(natural.c0, joint.d1, half) + pairStiffness(joint.d0, natural.c1, half),
+                   broadcast(torsion), axis),
+          scaleAdd(torsion * (joint.twist - natural.twist), axis, half * moment)};
+}
+
 //! Adds the torque that resists the rotation of the second segment against the first one: predicted, and to come.
 DM_INLINE void addViscosity(Elasticity& elasticity, const Symmetric3& viscosity, const Vec3& rotation) {
   elasticity.k = elasticity.k + viscosity;
@@ -65,7 +81,7 @@ struct ChainSolution {
   Vec3 force;
 };
 
-template <bool viscous>
+template <bool viscous, bool plain>
 class RodChain {
  public:
   RodChain(const RodSubstepInput& input, RodLanes& lanes, int first_lane)
@@ -91,7 +107,7 @@ class RodChain {
   DM_INLINE ChainFront begin() const {
     Placement segment = pack_.placement(0);
     Vec3 d = tangentOf(segment.q);
-    return {segment, d, inertia(0, d), Vec3{}, crossMatrix(half_length_ * d), Symmetric3{}, Vec3{}};
+    return {segment, d, inertia(0, d), Vec3{}, crossMatrix(armAfter(0) * d), Symmetric3{}, Vec3{}};
   }
 
   //! Eliminates the rotation of segment j and the force of joint j.
@@ -100,8 +116,7 @@ class RodChain {
     Placement next = pack_.placement(j + 1);
     Vec3 d = tangentOf(next.q);
     Joint joint = pack_.joint(j, front.segment.q, front.tangent, next.q, d);
-    Elasticity elasticity =
-        elasticityOf(joint, active ? in_.bending_stiffness : 0.0, active ? in_.torsion_stiffness : 0.0);
+    Elasticity elasticity = elasticityAt(j, joint, front.segment.q, next.q);
     if (viscous && active) {
       addViscosity(elasticity, stiffnessOf(joint, in_.bending_viscosity, in_.torsion_viscosity),
                    pack_.turnedSince(j + 1, next.q) - pack_.turnedSince(j, front.segment.q));
@@ -120,12 +135,12 @@ class RodChain {
 
     // f = P (f' / m' - gap - H^T th'), with V = H P
     Vec3 turn = a_inverse * torque;
-    Vec3 gap = transposedMultiplyAdd(front.r, turn, front.gap + gapOf(joint, front.segment.x, next.x, half_length_));
+    Vec3 gap = transposedMultiplyAdd(front.r, turn, front.gap + gapAt(j, joint, front.segment.x, next.x));
     Matrix3 a_inverse_r = a_inverse * front.r;
     Symmetric3 n = addOuter(transposedMultiplyAdd(front.r, a_inverse_r, front.n + compliance(j)),
                             broadcast(in_.axial_compliance), joint.d0);
-    Matrix3 arm = crossMatrix(half_length_ * d);
-    Matrix3 h = multiplyAdd(k, a_inverse_r, arm);
+    Matrix3 lever = crossMatrix(armBefore(j + 1) * d);
+    Matrix3 h = multiplyAdd(k, a_inverse_r, lever);
     Symmetric3 p = active ? inverse(n) : Symmetric3{};
     Symmetric3 series = k - transposedTimesSymmetric(toMatrix(k), a_inverse * toMatrix(k));
     Matrix3 v = h * p;
@@ -139,7 +154,7 @@ class RodChain {
             d,
             multiplyTransposedAdd(v, h, inertia(j + 1, d) + series),
             multiplyAdd(h, -force, multiplyAdd(k, turn, -elasticity.sigma)),
-            multiplyAdd(inverse_mass, v, arm),
+            multiplyAdd(inverse_mass, v, plain ? lever : crossMatrix(armAfter(j + 1) * d)),
             (-inverse_mass * inverse_mass) * p,
             inverse_mass * force};
   }
@@ -170,10 +185,28 @@ class RodChain {
   //! Inertia, and what tension resists to turning across the axis (geometric stiffness, times h^2). Without it a
   //! chain pulled taut would swing ever wider.
   DM_INLINE Symmetric3 inertia(int i, const Vec3& d) const {
-    Pack tension = half_length_ * dot(d, pack_.lastForce(i - 1) + pack_.lastForce(i));
+    Pack tension = plain ? half_length_ * dot(d, pack_.lastForce(i - 1) + pack_.lastForce(i))
+                         : armBefore(i) * dot(d, pack_.lastForce(i - 1)) + armAfter(i) * dot(d, pack_.lastForce(i));
     tension = tension > Pack{} ? tension : Pack{};
     return addOuter(isotropic(broadcast(in_.transverse_inertia[i]) + tension),
                     broadcast(in_.inertia_excess[i]) - tension, d);
+  }
+
+  //! From the joint before a segment to its position, and from there to the joint after it.
+  DM_INLINE Pack armBefore(int i) const { return plain ? half_length_ : broadcast(in_.arm_before[i]); }
+  DM_INLINE Pack armAfter(int i) const { return plain ? half_length_ : broadcast(in_.arm_after[i]); }
+
+  DM_INLINE Vec3 gapAt(int j, const Joint& joint, const Vec3& x0, const Vec3& x1) const {
+    return plain ? gapOf(joint, x0, x1, half_length_) : pack_.unevenGap(j, joint, x0, x1);
+  }
+
+  DM_INLINE Elasticity elasticityAt(int j, const Joint& joint, const Quat& q0, const Quat& q1) const {
+    const double bending = in_.joint_active[j] ? in_.bending_stiffness : 0.0;
+    const double torsion = in_.joint_active[j] ? in_.torsion_stiffness : 0.0;
+    if (plain || in_.natural_ahead == nullptr) {
+      return elasticityOf(joint, bending, torsion);
+    }
+    return naturalElasticity(joint, pack_.naturalJoint(j, q0, q1), bending, torsion);
   }
 
   //! What joint j yields to its own force, but for stretch.

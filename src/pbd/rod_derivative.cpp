@@ -64,17 +64,37 @@ double RodDerivative::twist(int joint) const {
   return now + kTurn * std::round((lanes_.twist[joint * kLanes + lane_] - now) / kTurn);
 }
 
+//! That of bending; a and b are what it brings together, such as the tangents.
+RodDerivative::Moment RodDerivative::bending(const Vector3& a, const Vector3& b) const {
+  const double flexural = in_.bending_stiffness / in_.segment_length;
+  return {flexural * a.cross(b), flexural * (a.dot(b) * Eigen::Matrix3d::Identity() - symmetricProductOf(a, b))};
+}
+
+RodDerivative::Moment RodDerivative::bending(int joint) const {
+  const Vector3& d0 = tangents_[joint];
+  const Vector3& d1 = tangents_[joint + 1];
+  if (in_.natural_ahead == nullptr) {
+    return bending(d0, d1);
+  }
+  const Vector3 ahead = orientation(joint) * Vector3(Eigen::Map<const Vector3>(in_.natural_ahead + 3 * joint));
+  const Vector3 behind = orientation(joint + 1) * Vector3(Eigen::Map<const Vector3>(in_.natural_behind + 3 * joint));
+  const Moment first = bending(ahead, d1);
+  const Moment second = bending(d0, behind);
+  return {0.5 * (first.value + second.value), 0.5 * (first.slope + second.slope)};
+}
+
 RodDerivative::Moment RodDerivative::moment(int joint) const {
   const Vector3& d0 = tangents_[joint];
   const Vector3& d1 = tangents_[joint + 1];
-  const double flexural = in_.bending_stiffness / in_.segment_length;
   const double torsional = in_.torsion_stiffness / in_.segment_length;
   const double lean = 1.0 / std::max(1.0 + d0.dot(d1), kLeastLeanOfJoint);
-  const double torque = torsional * twist(joint);
+  const double natural_twist = in_.natural_ahead == nullptr ? 0.0 : in_.natural_twist[joint];
+  const double torque = torsional * (twist(joint) - natural_twist);
   const Vector3 normal = d0.cross(d1);
   const Vector3 axis = lean * (d0 + d1);
-  const Vector3 value = flexural * normal + torque * axis;
-  Eigen::Matrix3d slope = flexural * (d0.dot(d1) * Eigen::Matrix3d::Identity() - symmetricProductOf(d0, d1));
+  const Moment bent = bending(joint);
+  const Vector3 value = bent.value + torque * axis;
+  Eigen::Matrix3d slope = bent.slope;
   slope += torsional * axis * axis.transpose() + torque * lean * symmetricProductOf(axis, normal);
   return {value, slope - 0.5 * crossMatrixOf(value)};
 }
@@ -91,11 +111,12 @@ Vector3 RodDerivative::force(int joint) const {
   if (joint < 0 || joint + 1 >= in_.segments) {
     return Vector3::Zero();
   }
+  const double before = in_.weights_before[joint + 1];
   const int span = in_.span_of_joint[joint];
   if (span >= 0) {
-    return vector(lanes_.force, span) - (joint - in_.spans[span].first) * weight;
+    return vector(lanes_.force, span) - (before - in_.weights_before[in_.spans[span].first + 1]) * weight;
   }
-  return (joint < in_.held[0] ? -(joint + 1) : in_.segments - 1 - joint) * weight;
+  return (joint < in_.held[0] ? -before : in_.weights_before[in_.segments] - before) * weight;
 }
 
 Vector3 RodDerivative::forceChange(int joint) const {
@@ -103,12 +124,18 @@ Vector3 RodDerivative::forceChange(int joint) const {
   return spanned ? force_changes_[in_.span_of_joint[joint]] : Vector3::Zero();
 }
 
+//! [N] What turns a segment at the arm of half its length.
+Vector3 RodDerivative::pull(int i) const {
+  const Vector3 weight(in_.weight[0], in_.weight[1], in_.weight[2]);
+  return force(i) + force(i - 1) + in_.lean_weight[i] * weight;
+}
+
 Wrench RodDerivative::wrench(int hold) const {
   const int i = in_.held[hold];
   const Vector3 weight(in_.weight[0], in_.weight[1], in_.weight[2]);
   Wrench result;
-  result.force = weight + force(i) - force(i - 1);
-  result.torque = 0.5 * in_.segment_length * tangents_[i].cross(force(i) + force(i - 1));
+  result.force = (in_.weights_before[i + 1] - in_.weights_before[i]) * weight + force(i) - force(i - 1);
+  result.torque = 0.5 * in_.segment_length * tangents_[i].cross(pull(i));
   if (i + 1 < in_.segments) {
     result.torque += moment(i).value;
   }
@@ -224,7 +251,7 @@ Wrench RodDerivative::wrenchChange(int hold) const {
   const double half = 0.5 * in_.segment_length;
   Wrench change;
   change.force = forceChange(i) - forceChange(i - 1);
-  change.torque = half * turns_[i].cross(d).cross(force(i) + force(i - 1));
+  change.torque = half * turns_[i].cross(d).cross(pull(i));
   change.torque += half * d.cross(forceChange(i) + forceChange(i - 1));
   if (i + 1 < in_.segments) {
     change.torque += momentChange(i);

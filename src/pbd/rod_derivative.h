@@ -40,9 +40,12 @@ class RodDerivative {
   Quaternion orientation(int i) const;
   double closure(int row, int column) const;
   double twist(int joint) const;
+  Moment bending(const Vector3& a, const Vector3& b) const;
+  Moment bending(int joint) const;
   Moment moment(int joint) const;
   Vector3 momentChange(int joint) const;
   Vector3 force(int joint) const;
+  Vector3 pull(int i) const;
   Vector3 forceChange(int joint) const;
   int jointsIn(int span, int segment) const;
   bool isCoupled(int i) const;

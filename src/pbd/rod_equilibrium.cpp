@@ -5,8 +5,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "natural_shape.h"
 #include "rod_derivative.h"
 #include "rod_equilibrium_kernel.h"
+#include "rod_masses.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -54,6 +56,9 @@ struct RodEquilibrium::State {
   std::vector<int> span_of_joint;
   std::vector<RodSpan> spans;
   std::vector<int> held;
+  std::shared_ptr<const NaturalJoints> natural;
+  std::shared_ptr<const SegmentMasses> masses;
+  std::vector<double> lean_weight;
   RodEquilibriumInput input;
 
   std::vector<RodEquilibriumLanes> groups;
@@ -253,6 +258,8 @@ void RodEquilibrium::State::configure(const Rod& rod) {
   const bool same_holds = sameHolds(holds, rod.holds()) && !held.empty();
   parameters = rod.parameters();
   holds = rod.holds();
+  natural = rod.naturalJoints();
+  masses = rod.segmentMasses();
   if (!same_holds) {
     groups.clear();
     status.clear();
@@ -288,6 +295,10 @@ void RodEquilibrium::State::describeMaterial() {
   input.axial_compliance = parameters.stretch == Stretch::FROM_MODULI ? l / parameters.axialStiffness() : 0.0;
   const Vector3 weight = parameters.segmentMass() * parameters.gravity;
   std::copy(weight.data(), weight.data() + 3, input.weight);
+  lean_weight.resize(parameters.segments);
+  for (int i = 0; i < parameters.segments; ++i) {
+    lean_weight[i] = masses->moment[i] / (0.5 * l * parameters.segmentMass());
+  }
   const bool spins = std::none_of(clamped.begin(), clamped.end(), [](unsigned char is) { return is != 0; });
   input.spin_stiffness = spins ? kSpinFraction * parameters.torsionStiffness() / l : 0.0;
 }
@@ -298,6 +309,11 @@ void RodEquilibrium::State::connect() {
   input.spans = spans.data();
   input.span_count = static_cast<int>(spans.size());
   input.held = held.data();
+  input.weights_before = masses->before.data();
+  input.lean_weight = lean_weight.data();
+  input.natural_ahead = natural->empty() ? nullptr : natural->ahead.data();
+  input.natural_behind = natural->behind.data();
+  input.natural_twist = natural->twist.data();
   input.held_count = static_cast<int>(held.size());
   shape.resize(3 * (parameters.segments + 1));
 }
@@ -335,7 +351,7 @@ void RodEquilibrium::State::startFrom(const Rod& rod, int slot, int copy) {
   }
   const Vector3 weight(input.weight[0], input.weight[1], input.weight[2]);
   for (std::size_t span = 0; span < spans.size(); ++span) {
-    const int joints = spans[span].last - spans[span].first;
+    const double joints = masses->before[spans[span].last] - masses->before[spans[span].first];
     const Vector3 reach = vector(&RodEquilibriumLanes::reach, static_cast<int>(span), slot);
     const Vector3 half = 0.5 * joints * weight;
     const Vector3 pull = half.norm() / (reach.norm() + 1e-9) * reach;
@@ -443,11 +459,12 @@ void RodEquilibrium::State::points(int copy, double* to) const {
 //! [N] on the joint's first segment.
 Vector3 RodEquilibrium::State::jointForce(int joint, int copy) const {
   const Vector3 weight(input.weight[0], input.weight[1], input.weight[2]);
+  const double before = masses->before[joint + 1];
   const int span = span_of_joint[joint];
   if (span >= 0) {
-    return vector(&RodEquilibriumLanes::force, span, copy) - (joint - spans[span].first) * weight;
+    return vector(&RodEquilibriumLanes::force, span, copy) - (before - masses->before[spans[span].first + 1]) * weight;
   }
-  return (joint < held.front() ? -(joint + 1) : input.segments - 1 - joint) * weight;
+  return (joint < held.front() ? -before : masses->before.back() - before) * weight;
 }
 
 }  // namespace pbd

@@ -38,6 +38,20 @@ DM_INLINE JointMoment momentOf(const Joint& joint, const Pack& flexural, const P
   return {scaleAdd(torque, axis, flexural * joint.normal), bending + twisting};
 }
 
+//! The same of a joint with a natural shape.
+DM_INLINE JointMoment momentOf(const Joint& joint, const NaturalJoint& natural, const Pack& flexural,
+                               const Pack& torsional) {
+  const Pack half = 0.5 * flexural;
+  const Pack torque = torsional * (joint.twist - natural.twist);
+  const Vec3 axis = joint.axis();
+  const Vec3 moment = crossAdd(natural.c0, joint.d1, cross(joint.d0, natural.c1));
+  const Pack aligned = dot(natural.c0, joint.d1) + dot(joint.d0, natural.c1);
+  const Symmetric3 bending = isotropic(half * aligned) - symmetricProduct(half, natural.c0, joint.d1) -
+                             symmetricProduct(half, joint.d0, natural.c1);
+  const Symmetric3 twisting = addOuter(symmetricProduct(torque * joint.lean, axis, joint.normal), torsional, axis);
+  return {scaleAdd(torque, axis, half * moment), bending + twisting};
+}
+
 //! The number of negative eigenvalues of a matrix, by its leading minors.
 DM_INLINE Pack negativeEigenvalues(const Symmetric3& a) {
   const Pack zero = {};
@@ -148,11 +162,18 @@ class Equilibrium {
       return Vec3{};
     }
     const int span = in_.span_of_joint[j];
+    const double before = in_.weights_before[j + 1];
     if (span >= 0) {
-      return load3(at(s_.force, 3 * span), kLanes) - broadcast(j - in_.spans[span].first) * weight_;
+      return load3(at(s_.force, 3 * span), kLanes) -
+             broadcast(before - in_.weights_before[in_.spans[span].first + 1]) * weight_;
     }
-    const int hanging = j < in_.held[0] ? -(j + 1) : in_.segments - 1 - j;
+    const double hanging = j < in_.held[0] ? -before : in_.weights_before[in_.segments] - before;
     return broadcast(hanging) * weight_;
+  }
+
+  DM_INLINE NaturalJoint naturalJoint(int j, const Quat& q0, const Quat& q1) const {
+    return {rotatedBy(q0, broadcast3(in_.natural_ahead + 3 * j)), rotatedBy(q1, broadcast3(in_.natural_behind + 3 * j)),
+            broadcast(in_.natural_twist[j])};
   }
 
   //! How many joints of a span a segment has.
@@ -184,11 +205,12 @@ class Equilibrium {
         next_tangent = tangentOf(next);
         const Joint joint = jointBetween(q, d, next, next_tangent, load(at(s_.twist, i)));
         store(at(s_.twist, i), joint.twist);
-        after = momentOf(joint, flexural, torsional);
+        after = in_.natural_ahead == nullptr ? momentOf(joint, flexural, torsional)
+                                             : momentOf(joint, naturalJoint(i, q, next), flexural, torsional);
         q = next;
       }
       const Vec3 force_after = force(i);
-      const Vec3 pull = force_before + force_after;
+      const Vec3 pull = scaleAdd(broadcast(in_.lean_weight[i]), weight_, force_before + force_after);
       const Vec3 residual = after.moment - before.moment + half_length_ * cross(d, pull);
       eliminateSegment(i, d, pull, residual, before.stiffness, after);
       before = after;

@@ -18,7 +18,12 @@ struct RodEquilibriumInput {
   double bending_stiffness;      // E I [N m^2]
   double torsion_stiffness;      // G J [N m^2]
   double axial_compliance;       // l / (E A) [m/N]
-  double weight[3];              // of a segment [N]
+  double weight[3];              // of a segment alone [N]
+  const double* weights_before;  // [N + 1] weights of the segments before one over that of a segment alone, sum
+  const double* lean_weight;     // [N] moment of the weight off a segment's centre, per half length and `weight`
+  const double* natural_ahead;   // [(N - 1) x 3] see NaturalJoints; null: straight by nature
+  const double* natural_behind;  // [(N - 1) x 3]
+  const double* natural_twist;   // [N - 1] rad
   double spin_stiffness;         // N m/rad, holds the rotation about the own axis where nothing else does
   const unsigned char* clamped;  // [N]
   const int* span_of_joint;      // [N - 1], -1 in a free end

@@ -29,6 +29,14 @@ struct Joint {
   DM_INLINE Vec3 axis() const { return lean * sum; }
 };
 
+//! What a joint of a rod with a natural shape has besides (natural_shape.h): the bending energy is that of the pairs
+//! c0, d1 and d0, c1 in place of d0, d1, half each.
+struct NaturalJoint {
+  Vec3 c0;     // tangent that the second segment would have without load
+  Vec3 c1;     // likewise of the first one
+  Pack twist;  // rad, without load
+};
+
 // With half the twist of a smaller tangent, four terms of its series will do: 11 degrees.
 constexpr double kSmallTangent = 0.1;
 

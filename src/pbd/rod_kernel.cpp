@@ -17,12 +17,12 @@ void solvePacks(const RodSubstepInput& input, int copies, RodLanes& lanes) {
   }
 }
 
-template <template <bool viscous> class Solver>
+template <template <bool viscous, bool plain> class Solver>
 void substep(const RodSubstepInput& input, int copies, RodLanes& lanes) {
   if (input.viscous) {
-    solvePacks<Solver<true>>(input, copies, lanes);
+    (input.plain ? solvePacks<Solver<true, true>> : solvePacks<Solver<true, false>>)(input, copies, lanes);
   } else {
-    solvePacks<Solver<false>>(input, copies, lanes);
+    (input.plain ? solvePacks<Solver<false, true>> : solvePacks<Solver<false, false>>)(input, copies, lanes);
   }
 }
 

@@ -46,12 +46,10 @@ struct RodSubstepInput {
   double h;                   // s
   double segment_length;      // m
   double gravity[3];          // m/s^2
-  double inertia_ratio;       // (axial - transverse) / transverse moment of inertia
   double bending_compliance;  // l / (E I h^2), times bending_elasticity
   double torsion_compliance;  // l / (G J h^2), times torsion_elasticity
   double bending_stiffness;   // E I h^2 / l, as far as the direct solver can tell it from rigid
   double torsion_stiffness;   // G J h^2 / l, likewise
-  double drag;                // 1/m, speed across the axis that is lost per way through air
   bool viscous;               // whether the joints resist their rate of bending or twisting
   double bending_viscosity;   // of a joint: torque per rotation in a substep, retardation time / h
   double torsion_viscosity;   // times the stiffness
@@ -64,6 +62,16 @@ struct RodSubstepInput {
   const double* inverse_axial;               // [N] 1/(kg m^2), zero where clamped
   const double* transverse_inertia;          // [N] kg m^2, huge where clamped
   const double* inertia_excess;              // [N] kg m^2, axial - transverse, zero where clamped
+  const double* inertia_ratio;               // [N] (axial - transverse) / transverse moment of inertia
+  const double* drag;                        // [N] 1/m, speed across the axis that is lost per way through air
+  const double* weight_moment;               // [N] kg m, of mass off the centre that a pinned segment turns about
+  const double* arm_before;                  // [N] m, from the joint before a segment to its position
+  const double* arm_after;                   // [N] m, from there to the joint after it
+  bool plain;                                // whether the rod is straight by nature and all arms are l / 2
+  const double* natural_ahead;               // [(N - 1) x 3] see NaturalJoints; null: straight by nature
+  const double* natural_behind;              // [(N - 1) x 3]
+  const double* natural_twist;               // [N - 1] rad
+  double bending_over_torsion;               // E I / (G J)
   const unsigned char* joint_active;         // [N - 1] false between two held segments
   const double* linear_rate;                 // [N] 1/s, velocity per displacement in a substep: damping / h
   const double* angular_rate;                // [N] 1/s

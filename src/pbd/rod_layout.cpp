@@ -79,9 +79,59 @@ void layOutBetween(const RodParameters& rod, const HeldPoint& first, const HeldP
   }
 }
 
+//! The segments from one to another in the natural shape, end to end, both included; the other may come before it.
+std::vector<Pose> naturalPieces(const RodParameters& rod, const NaturalJoints& natural, const Pose& start, int from,
+                                int to) {
+  const double half = 0.5 * rod.segmentLength();
+  const int step = to < from ? -1 : 1;
+  std::vector<Pose> pieces{start};
+  for (int i = from; i != to; i += step) {
+    const Quaternion& turn = natural.turns[step > 0 ? i : i - 1];
+    const Pose& last = pieces.back();
+    Pose next;
+    next.orientation = (last.orientation * (step > 0 ? turn : turn.conjugate())).normalized();
+    next.position = last.position + step * half * (tangent(last) + tangent(next));
+    pieces.push_back(next);
+  }
+  return pieces;
+}
+
+// Of a span's length: if the natural shape misses the next hold by less, it is the first guess.
+constexpr double kNearMiss = 0.2;
+
+//! Lays out a span in the natural shape, moved so that it ends at the next hold. @return whether that is near
+bool layOutNaturally(const RodParameters& rod, const NaturalJoints& natural, const HeldPoint& first,
+                     const HeldPoint& last, std::vector<Pose>& segments) {
+  const std::vector<Pose> pieces = naturalPieces(rod, natural, first.pose, first.particle, last.particle);
+  const Vector3 missing = last.pose.position - pieces.back().position;
+  const int joints = last.particle - first.particle;
+  if (missing.norm() > kNearMiss * joints * rod.segmentLength()) {
+    return false;
+  }
+  for (int i = 1; i < joints; ++i) {
+    const double share = static_cast<double>(i) / joints;
+    segments[first.particle + i] = {pieces[i].position + share * missing, pieces[i].orientation};
+  }
+  return true;
+}
+
+//! The ends beyond the first and the last hold, or all of a rod that is not held.
+void layOutNaturalEnds(const RodParameters& rod, const NaturalJoints& natural, int first, int last,
+                       std::vector<Pose>& segments) {
+  const std::vector<Pose> before = naturalPieces(rod, natural, segments[first], first, 0);
+  const std::vector<Pose> after = naturalPieces(rod, natural, segments[last], last, rod.segments - 1);
+  for (int i = 0; i < first; ++i) {
+    segments[i] = before[first - i];
+  }
+  for (int i = last + 1; i < rod.segments; ++i) {
+    segments[i] = after[i - last];
+  }
+}
+
 }  // namespace
 
-std::vector<Pose> layOutRod(const RodParameters& rod, const std::vector<HeldPoint>& holds) {
+std::vector<Pose> layOutRod(const RodParameters& rod, const NaturalJoints& natural,
+                            const std::vector<HeldPoint>& holds) {
   std::vector<Pose> segments(rod.segments);
   Pose base = rod.pose;
   int base_segment = 0;
@@ -101,8 +151,14 @@ std::vector<Pose> layOutRod(const RodParameters& rod, const std::vector<HeldPoin
     const int steps = i - (nearest != nullptr ? nearest->particle : base_segment);
     segments[i] = {start.position + steps * rod.segmentLength() * tangent(start), start.orientation};
   }
+  if (!natural.empty()) {
+    layOutNaturalEnds(rod, natural, holds.empty() ? 0 : holds.front().particle,
+                      holds.empty() ? 0 : holds.back().particle, segments);
+  }
   for (std::size_t i = 0; i + 1 < holds.size(); ++i) {
-    layOutBetween(rod, holds[i], holds[i + 1], segments);
+    if (natural.empty() || !layOutNaturally(rod, natural, holds[i], holds[i + 1], segments)) {
+      layOutBetween(rod, holds[i], holds[i + 1], segments);
+    }
   }
   return segments;
 }

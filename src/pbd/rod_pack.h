@@ -36,6 +36,18 @@ class RodPack {
         twist_(lanes.twist.data() + first_lane),
         first_lane_(first_lane) {}
 
+  //! How far the two segments' ends at joint j are apart, where their arms may differ.
+  DM_INLINE Vec3 unevenGap(int j, const Joint& joint, const Vec3& x0, const Vec3& x1) const {
+    return scaleAdd(broadcast(in_.arm_after[j]), joint.d0,
+                    scaleAdd(broadcast(in_.arm_before[j + 1]), joint.d1, x0 - x1));
+  }
+
+  //! The vectors that joint j between two orientations brings together; for rods that are not straight by nature.
+  DM_INLINE NaturalJoint naturalJoint(std::ptrdiff_t j, const Quat& q0, const Quat& q1) const {
+    return {rotatedBy(q0, broadcast3(in_.natural_ahead + 3 * j)), rotatedBy(q1, broadcast3(in_.natural_behind + 3 * j)),
+            broadcast(in_.natural_twist[j])};
+  }
+
   DM_INLINE Placement placement(int i) const {
     return {load3(position_ + at3(i), kLanes), load4(orientation_ + at4(i), kLanes)};
   }
@@ -108,8 +120,8 @@ class RodPack {
     store4(previous_orientation_ + at4(i), kLanes, start.q);
     if (in_.inverse_mass[i] > 0.0) {
       Vec3 v = scaleAdd(h, broadcast3(in_.gravity), load3(velocity_ + at3(i), kLanes));
-      if (in_.drag > 0.0) {
-        v = slowed(v, tangentOf(start.q));
+      if (in_.drag[i] > 0.0) {
+        v = slowed(in_.drag[i], v, tangentOf(start.q));
       }
       store3(position_ + at3(i), kLanes, scaleAdd(h, v, start.x));
     }
@@ -117,15 +129,19 @@ class RodPack {
       Vec3 omega = load3(angular_velocity_ + at3(i), kLanes);
       Vec3 d = tangentOf(start.q);
       // Gyroscopic torque of a body of revolution: I^-1 (omega x I omega).
-      Vec3 precession = (in_.inertia_ratio * dot(d, omega)) * cross(omega, d);
+      Vec3 precession = (in_.inertia_ratio[i] * dot(d, omega)) * cross(omega, d);
+      if (in_.weight_moment[i] != 0.0) {
+        const Pack rate = broadcast(in_.h * in_.inverse_transverse[i] * in_.weight_moment[i]);
+        omega = scaleAdd(rate, cross(d, broadcast3(in_.gravity)), omega);
+      }
       store4(orientation_ + at4(i), kLanes, rotated(start.q, (0.5 * h) * scaleAdd(-h, precession, omega)));
     }
   }
 
   //! Velocity after the drag of a substep, which is implicit in the speed.
-  DM_INLINE Vec3 slowed(const Vec3& v, const Vec3& tangent) const {
+  DM_INLINE Vec3 slowed(double drag, const Vec3& v, const Vec3& tangent) const {
     Vec3 across = scaleAdd(-dot(v, tangent), tangent, v);
-    const Pack loss = (in_.drag * in_.h) * squareRoot(dot(across, across));
+    const Pack loss = (drag * in_.h) * squareRoot(dot(across, across));
     return scaleAdd(-loss / (1.0 + loss), across, v);
   }
 

@@ -1,16 +1,25 @@
 #include "deformable_manipulation/pbd/rod_parameters.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "natural_shape.h"
 
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
 
-constexpr double kAirDensity = 1.2;  // kg/m^3, at sea level and 20 degrees Celsius
+constexpr double kSharpestJoint = 1.0;  // rad; beyond, joints no longer bend and twist as a rod does
+constexpr double kAirDensity = 1.2;     // kg/m^3, at sea level and 20 degrees Celsius
 
 double area(double radius) { return M_PI * radius * radius; }
 
 }  // namespace
+
+NaturalShape NaturalShape::read(const ParameterSection& section) {
+  return {section.vector<2>("curvature"), section.number("twist"), section.vectors("points")};
+}
 
 RodParameters RodParameters::read(const ParameterSection& object, const ParameterSection& simulation) {
   RodParameters p;
@@ -25,6 +34,14 @@ RodParameters RodParameters::read(const ParameterSection& object, const Paramete
   p.drag_coefficient = object.number("drag_coefficient");
   p.bending_retardation_time = object.number("bending_retardation_time");
   p.torsion_retardation_time = object.number("torsion_retardation_time");
+  if (object.has("natural_shape")) {
+    p.natural_shape = NaturalShape::read(object.section("natural_shape"));
+  }
+  if (object.has("point_masses")) {
+    for (const ParameterSection& point : object.sections("point_masses")) {
+      p.point_masses.push_back({point.number("at"), point.number("mass")});
+    }
+  }
   p.pose = object.section("pose").pose("position", "orientation");
   p.gravity = simulation.vector<3>("gravity");
   p.solver = simulation.choice<RodSolver>("solver",
@@ -48,6 +65,49 @@ void RodParameters::check(ParameterCheck& check) const {
   check.require(pose.position.allFinite(), "pose.position", pose.position.norm(), "three finite numbers [m]");
   check.require(std::abs(pose.orientation.norm() - 1.0) < 1e-6, "pose.orientation", pose.orientation.norm(),
                 "a quaternion of norm 1");
+  checkPointMasses(check);
+  if (length > 0.0 && segments >= 2 && segments <= 100000) {
+    checkNaturalShape(check);
+  }
+}
+
+void RodParameters::checkNaturalShape(ParameterCheck& check) const {
+  const NaturalShape& shape = natural_shape;
+  const bool finite = shape.curvature.allFinite() && std::isfinite(shape.twist);
+  check.require(finite, "natural_shape", shape.curvature.norm(), "finite numbers [1/m]");
+  const auto apart = [](const Vector3& a, const Vector3& b) { return (b - a).norm() > 0.0; };
+  bool distinct = shape.points.size() != 1;
+  for (std::size_t i = 1; i < shape.points.size(); ++i) {
+    distinct = distinct && apart(shape.points[i - 1], shape.points[i]);
+  }
+  check.require(distinct, "natural_shape.points", static_cast<double>(shape.points.size()),
+                "none, or at least 2 finite points, none of them like the one before");
+  if (!finite || !distinct) {
+    return;
+  }
+  double sharpest = 0.0;
+  for (const Quaternion& turn : naturalJoints(*this).turns) {
+    sharpest = std::max(sharpest, turn.angularDistance(Quaternion::Identity()));
+  }
+  check.require(sharpest <= kSharpestJoint, "natural_shape", sharpest,
+                "turns of at most 1 rad from segment to segment; take more segments");
+}
+
+void RodParameters::checkPointMasses(ParameterCheck& check) const {
+  for (std::size_t i = 0; i < point_masses.size(); ++i) {
+    const std::string key = "point_masses." + std::to_string(i);
+    check.require(point_masses[i].at >= 0.0 && point_masses[i].at <= length, key + ".at", point_masses[i].at,
+                  "a place on the rod, 0 to " + std::to_string(length) + " [m]");
+    check.positive(key + ".mass", point_masses[i].mass, "[kg]");
+  }
+}
+
+double RodParameters::mass() const {
+  double added = 0.0;
+  for (const PointMass& point : point_masses) {
+    added += point.mass;
+  }
+  return segments * segmentMass() + added;
 }
 
 double RodParameters::segmentMass() const { return density * area(radius) * segmentLength(); }

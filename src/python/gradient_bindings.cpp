@@ -32,7 +32,7 @@ py::array_t<double> gradientsOf(const Features& features) {
 }
 
 Features makeFeatures(const py::array_t<double>& distance, const py::array_t<double>& normal,
-                      const py::array_t<double>& velocity, const py::array_t<double>& gradients) {
+                      const py::array_t<double>& velocity, const py::array_t<double>& gradients, double parting) {
   using Dense = py::array_t<double, py::array::c_style | py::array::forcecast>;
   const Dense d(distance), n(normal), v(velocity), g(gradients);
   const py::ssize_t count = d.size();
@@ -49,6 +49,7 @@ Features makeFeatures(const py::array_t<double>& distance, const py::array_t<dou
   }
   Features features;
   features.take({distances}, static_cast<int>(g.shape(1)));
+  features.parting.assign(features.parting.size(), parting);
   for (int m = 0; m < features.size(); ++m) {
     for (int agent = 0; agent < features.agents(); ++agent) {
       features.gradient(m, agent) = Eigen::Map<const Vector3>(g.data(m, agent, 0));
@@ -81,14 +82,17 @@ void bindGradients(py::module_& module) {
       module, "Features",
       "M nearest features of the object: distance (M,) [m], normal (M, 3), obstacle_velocity (M, 3)\n"
       "[m/s], gradients (M, A, 3): gradients[m, a] . v is the rate at which feature m's distance grows\n"
-      "when agent a's held point moves with the velocity v.")
+      "when agent a's held point moves with the velocity v; parting (M,) [m] along the normal of what\n"
+      "the perturbed copies say.")
       .def(py::init(&makeFeatures), py::arg("distance"), py::arg("normal"), py::arg("obstacle_velocity"),
-           py::arg("gradients"))
+           py::arg("gradients"), py::arg("parting") = 0.0)
       .def_property_readonly("distance",
                              [](const Features& f) { return py::array_t<double>(f.size(), f.distance.data()); })
       .def_property_readonly("normal", [](const Features& f) { return toArray(f.normal); })
       .def_property_readonly("obstacle_velocity", [](const Features& f) { return toArray(f.obstacle_velocity); })
-      .def_property_readonly("gradients", &gradientsOf);
+      .def_property_readonly("gradients", &gradientsOf)
+      .def_property_readonly("parting",
+                             [](const Features& f) { return py::array_t<double>(f.size(), f.parting.data()); });
   py::class_<BoundDifferences>(module, "Differences",
                                "Displacement rates of the object from its perturbed copies, kept over the cycles.")
       .def(py::init<int, int>(), py::arg("agents"), py::arg("leader"))

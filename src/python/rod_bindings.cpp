@@ -1,5 +1,7 @@
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings.h"
 #include "deformable_manipulation/pbd/rod.h"
@@ -12,8 +14,10 @@ namespace {
 std::unique_ptr<Rod> makeRod(double length, double radius, double density, int segments, double young_modulus,
                              double torsion_modulus, const std::string& stretch, double damping,
                              double drag_coefficient, double bending_retardation_time, double torsion_retardation_time,
-                             const std::string& solver, int threads, const Vector3& gravity, const Vector3& position,
-                             const Vector4& orientation) {
+                             const Eigen::Vector2d& natural_curvature, double natural_twist,
+                             const std::vector<Vector3>& natural_points,
+                             const std::vector<std::pair<double, double>>& point_masses, const std::string& solver,
+                             int threads, const Vector3& gravity, const Vector3& position, const Vector4& orientation) {
   RodParameters p;
   p.length = length;
   p.radius = radius;
@@ -26,6 +30,10 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
   p.drag_coefficient = drag_coefficient;
   p.bending_retardation_time = bending_retardation_time;
   p.torsion_retardation_time = torsion_retardation_time;
+  p.natural_shape = {natural_curvature, natural_twist, natural_points};
+  for (const auto& [at, mass] : point_masses) {
+    p.point_masses.push_back({at, mass});
+  }
   p.solver =
       choose<RodSolver>("solver", solver, {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
   p.threads = threads;
@@ -66,21 +74,27 @@ struct BoundEquilibrium {
 }  // namespace
 
 void bindRod(py::module_& module) {
-  py::class_<Rod, Body>(module, "Rod",
-                        "A rope or rod of rigid segments with zero-stretch bending-twisting joints (Deul et al. 2018)\n"
-                        "and small substeps. The particles are the segments, the points their N + 1 ends.\n\n"
-                        "length, radius [m], density [kg/m^3], young_modulus, torsion_modulus [Pa], damping [1/s] of\n"
-                        "motion relative to the held points, drag_coefficient across the axis in still air, "
-                        "retardation times [s] of bending and twist (viscosity\n"
-                        "over stiffness), gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
-                        "solver 'direct' or 'gauss_seidel'; threads that advance the copies, eight each. Undeformed it "
-                        "lies along the x axis of the pose given by\n"
-                        "position (3,) [m] and orientation (4,). Raises ParameterError.")
+  py::class_<Rod, Body>(
+      module, "Rod",
+      "A rope or rod of rigid segments with zero-stretch bending-twisting joints (Deul et al. 2018)\n"
+      "and small substeps. The particles are the segments, the points their N + 1 ends.\n\n"
+      "length, radius [m], density [kg/m^3], young_modulus, torsion_modulus [Pa], damping [1/s] of\n"
+      "motion relative to the held points, drag_coefficient across the axis in still air, "
+      "retardation times [s] of bending and twist (viscosity\n"
+      "over stiffness), natural_curvature (2,) about the segments' y and z axes [1/m], natural_twist\n"
+      "[rad/m], natural_points (K, 3) [m] in place of the curvature, point_masses: pairs of the place\n"
+      "along the rod [m] and the mass [kg]; gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
+      "solver 'direct' or 'gauss_seidel'; threads that advance the copies, eight each. Undeformed it "
+      "lies along the x axis of the pose given by\n"
+      "position (3,) [m] and orientation (4,). Raises ParameterError.")
       .def(py::init(&makeRod), py::kw_only(), py::arg("length"), py::arg("radius"), py::arg("density"),
            py::arg("segments"), py::arg("young_modulus"), py::arg("torsion_modulus"), py::arg("stretch"),
            py::arg("damping"), py::arg("drag_coefficient") = 0.0, py::arg("bending_retardation_time") = 0.0,
-           py::arg("torsion_retardation_time") = 0.0, py::arg("solver"), py::arg("threads") = 1, py::arg("gravity"),
-           py::arg("position") = Vector3::Zero().eval(), py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
+           py::arg("torsion_retardation_time") = 0.0, py::arg("natural_curvature") = Eigen::Vector2d::Zero().eval(),
+           py::arg("natural_twist") = 0.0, py::arg("natural_points") = std::vector<Vector3>(),
+           py::arg("point_masses") = std::vector<std::pair<double, double>>(), py::arg("solver"),
+           py::arg("threads") = 1, py::arg("gravity"), py::arg("position") = Vector3::Zero().eval(),
+           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
 }
 
 void bindRestShapes(py::module_& module) {

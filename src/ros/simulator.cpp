@@ -116,8 +116,9 @@ bool Simulator::atEnd() const {
 
 void Simulator::waitForSubscribers(const ros::Publisher& publisher, int wanted) {
   while (ros::ok() && static_cast<int>(publisher.getNumSubscribers()) < wanted) {
-    ROS_INFO_STREAM_THROTTLE(kWarningPeriod, "Waiting for " << wanted << " subscribers of " << publisher.getTopic()
-                                                            << "; there are " << publisher.getNumSubscribers() << ".");
+    ROS_INFO_STREAM_THROTTLE(kWarningPeriod, "Waiting for subscribers of " << publisher.getTopic() << ": "
+                                                                           << publisher.getNumSubscribers() << " of "
+                                                                           << wanted << " are there.");
     spinFor(0.01);
   }
 }
@@ -267,10 +268,11 @@ void Simulator::awaitTick() {
     ++overruns_;
     diagnostics_.countOverrun();
     next_tick_ = SteadyClock::now();
-    ROS_WARN_THROTTLE(kOverrunPeriod,
-                      "%s: Overruns: %ld of %ld cycles took longer than %.1f ms. This machine is too slow for the run: "
-                      "lower controller.rate, or use lockstep:=true.",
-                      ros::this_node::getName().c_str(), overruns_, published_, 1e3 * scenario_.clock.cycleTime());
+    ROS_WARN_THROTTLE(
+        kOverrunPeriod,
+        "%s: Overruns: %ld of %ld cycles took longer than %.1f ms. If there are many, this machine is too slow "
+        "for the run: lower controller.rate, or use lockstep:=true.",
+        ros::this_node::getName().c_str(), overruns_, published_, 1e3 * scenario_.clock.cycleTime());
   }
   ros::getGlobalCallbackQueue()->callAvailable();
   for (SteadyClock::time_point now = SteadyClock::now(); ros::ok() && now < next_tick_; now = SteadyClock::now()) {

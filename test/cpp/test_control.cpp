@@ -136,6 +136,7 @@ Mapping collision() {
   return {{"offset", 0.05},
           {"margin", 0.0},
           {"speed_margin", 0.0},
+          {"snap_margin", 0.0},
           {"band", 0.1},
           {"alpha", numbers({1.0, 5.0})},
           {"anticipation", numbers({0.4, 5.0})},

@@ -19,7 +19,7 @@ constexpr double kAxial = 3e-8;
 //! A rod of eight different shapes, clamped at its first segment and pinned at its last.
 class RodInput {
  public:
-  explicit RodInput(bool viscous) {
+  RodInput(bool viscous, bool natural) {
     inverse_mass_.front() = inverse_mass_.back() = 0.0;
     inverse_transverse_.front() = inverse_axial_.front() = 0.0;
     transverse_inertia_.front() = 1e30 * kTransverse;
@@ -31,12 +31,20 @@ class RodInput {
     in_.h = 0.002;
     in_.segment_length = 0.1;
     in_.gravity[2] = -9.81;
-    in_.inertia_ratio = kAxial / kTransverse - 1.0;
+    in_.inertia_ratio = ratio_.data();
     in_.bending_stiffness = 0.03 * in_.h * in_.h / in_.segment_length;
     in_.torsion_stiffness = 0.02 * in_.h * in_.h / in_.segment_length;
     in_.bending_compliance = 1.0 / in_.bending_stiffness;
     in_.torsion_compliance = 1.0 / in_.torsion_stiffness;
-    in_.drag = viscous ? 0.5 : 0.0;
+    drag_.assign(kSegments, viscous ? 0.5 : 0.0);
+    in_.drag = drag_.data();
+    in_.weight_moment = zero_.data();
+    in_.arm_before = before_.data();
+    in_.arm_after = after_.data();
+    in_.plain = !natural;
+    if (natural) {
+      describeNaturalShape();
+    }
     in_.viscous = viscous;
     in_.bending_viscosity = in_.torsion_viscosity = 3.0 * in_.bending_stiffness;
     in_.bending_elasticity = in_.torsion_elasticity = viscous ? 0.25 : 1.0;
@@ -67,11 +75,33 @@ class RodInput {
   }
 
  private:
+  //! Bent and twisted by nature, with a heavy segment in the middle.
+  void describeNaturalShape() {
+    before_[6] = 0.0505;
+    after_[6] = 0.0495;
+    inverse_mass_[6] *= 0.3;
+    for (int j = 0; j + 1 < kSegments; ++j) {
+      ahead_.insert(ahead_.end(), {std::cos(0.03), std::sin(0.03), 0.0});
+      behind_.insert(behind_.end(),
+                     {std::cos(0.03), -std::sin(0.03) * std::cos(0.02), std::sin(0.03) * std::sin(0.02)});
+    }
+    in_.natural_ahead = ahead_.data();
+    in_.natural_behind = behind_.data();
+    in_.natural_twist = natural_twist_.data();
+    in_.bending_over_torsion = 1.5;
+  }
+
+  std::vector<double> ahead_, behind_;
+  std::vector<double> natural_twist_ = std::vector<double>(kSegments - 1, 0.02);
   std::vector<double> inverse_mass_ = std::vector<double>(kSegments, 1.0 / kMass);
   std::vector<double> inverse_transverse_ = std::vector<double>(kSegments, 1.0 / kTransverse);
   std::vector<double> inverse_axial_ = std::vector<double>(kSegments, 1.0 / kAxial);
   std::vector<double> transverse_inertia_ = std::vector<double>(kSegments, kTransverse);
   std::vector<double> inertia_excess_ = std::vector<double>(kSegments, kAxial - kTransverse);
+  std::vector<double> ratio_ = std::vector<double>(kSegments, kAxial / kTransverse - 1.0);
+  std::vector<double> before_ = std::vector<double>(kSegments, 0.05);
+  std::vector<double> after_ = std::vector<double>(kSegments, 0.05);
+  std::vector<double> drag_;
   std::vector<double> rate_ = std::vector<double>(kSegments, 0.95 / 0.002);
   std::vector<double> zero_ = std::vector<double>(3 * kSegments, 0.0);
   std::vector<unsigned char> active_ = std::vector<unsigned char>(kSegments - 1, 1);
@@ -104,13 +134,14 @@ void expectNear(const AlignedArray& a, const AlignedArray& b, double tolerance, 
   }
 }
 
-class Kernels : public testing::TestWithParam<std::tuple<RodSubstep RodKernel::*, bool>> {
+class Kernels : public testing::TestWithParam<std::tuple<RodSubstep RodKernel::*, bool, bool>> {
  protected:
   static RodLanes run(const RodKernel& kernel, int copies) {
-    const auto [substep_of, viscous] = GetParam();
-    RodInput rod(viscous);
+    const auto [substep_of, viscous, natural] = GetParam();
+    RodInput rod(viscous, natural);
     RodLanes lanes = startingLanes();
-    for (int substep = 0; substep < 400; ++substep) {
+    const int substeps = natural ? 30 : 400;  // where curvature lets it snap aside, rounding soon decides how
+    for (int substep = 0; substep < substeps; ++substep) {
       (kernel.*substep_of)(rod.at(substep), copies, lanes);
     }
     return lanes;
@@ -120,7 +151,9 @@ class Kernels : public testing::TestWithParam<std::tuple<RodSubstep RodKernel::*
 TEST_P(Kernels, agreeForEveryInstructionSet) {
   const std::vector<RodKernel> kernels = availableRodKernels();
   const RodLanes expected = run(kernels[0], kLanes);
-  EXPECT_LT(expected.position[(3 * 6 + 2) * kLanes], -0.05);  // the middle has come down
+  if (!std::get<2>(GetParam())) {
+    EXPECT_LT(expected.position[(3 * 6 + 2) * kLanes], -0.05);  // the middle has come down
+  }
   for (const RodKernel& kernel : kernels) {
     const RodLanes lanes = run(kernel, kLanes);
     expectNear(lanes.position, expected.position, 1e-9, kernel.instruction_set + std::string(" position"));
@@ -148,11 +181,12 @@ TEST_P(Kernels, leaveTheOtherLanesOfTheirPacksFinite) {
 
 INSTANTIATE_TEST_SUITE_P(BothSolvers, Kernels,
                          testing::Combine(testing::Values(&RodKernel::direct, &RodKernel::gauss_seidel),
-                                          testing::Bool()),
+                                          testing::Bool(), testing::Bool()),
                          [](const testing::TestParamInfo<Kernels::ParamType>& info) {
                            const bool direct = std::get<0>(info.param) == &RodKernel::direct;
                            return std::string(direct ? "direct" : "gauss_seidel") +
-                                  (std::get<1>(info.param) ? "_viscous" : "");
+                                  (std::get<1>(info.param) ? "_viscous" : "") +
+                                  (std::get<2>(info.param) ? "_natural" : "");
                          });
 
 }  // namespace

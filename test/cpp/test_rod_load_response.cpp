@@ -17,7 +17,9 @@ struct Held {
   std::vector<std::pair<int, Hold>> holds;  // along y, 1.9 m from the first to the last segment
   Stretch stretch;
   double young_modulus;
-  double tilt;  // rad, of the last hold about x
+  double tilt;                        // rad, of the last hold about x
+  Vector3 natural = {0.0, 0.0, 0.0};  // twist and curvatures without load [1/m]
+  std::vector<PointMass> point_masses = {};
 };
 
 std::unique_ptr<Rod> settled(const Held& given) {
@@ -25,6 +27,9 @@ std::unique_ptr<Rod> settled(const Held& given) {
   p.young_modulus = given.young_modulus;
   p.torsion_modulus = given.young_modulus / 3.0;
   p.stretch = given.stretch;
+  p.natural_shape.twist = given.natural[0];
+  p.natural_shape.curvature = given.natural.tail<2>();
+  p.point_masses = given.point_masses;
   auto rod = std::make_unique<Rod>(p);
   for (const auto& [particle, type] : given.holds) {
     const double along = 1.9 * particle / (p.segments - 1);
@@ -147,7 +152,21 @@ INSTANTIATE_TEST_SUITE_P(
         Held{"pole", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::ZERO, 3e10, 0.4},
         Held{"pinned", {{0, Hold::PINNED}, {27, Hold::CLAMPED}}, Stretch::ZERO, 1e9, 0.3},
         Held{"three", {{2, Hold::CLAMPED}, {14, Hold::CLAMPED}, {24, Hold::PINNED}}, Stretch::ZERO, 1e9, 0.0},
-        Held{"elastic", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::FROM_MODULI, 30e6, 0.4}),
+        Held{"elastic", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::FROM_MODULI, 30e6, 0.4},
+        Held{"coil",
+             {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}},
+             Stretch::ZERO,
+             30e6,
+             0.4,
+             {1.0, 0.6, -0.8},
+             {{1.0, 0.05}}},
+        Held{"bent",
+             {{2, Hold::CLAMPED}, {14, Hold::PINNED}, {24, Hold::CLAMPED}},
+             Stretch::FROM_MODULI,
+             1e9,
+             0.0,
+             {0.5, 0.3, 0.2},
+             {{0.0, 0.1}, {0.7, 0.02}, {2.25, 0.05}}}),
     [](const auto& info) { return std::string(info.param.name); });
 
 //! A long limp chain between level ends.

@@ -20,7 +20,9 @@ struct Grips {
   std::vector<std::pair<int, Hold>> holds;  // along y, 1.5 m from the first to the last
   Stretch stretch;
   double young_modulus;
-  double twist = 0.0;  // rad, of the last hold
+  double twist = 0.0;                 // rad, of the last hold
+  Vector3 natural = {0.0, 0.0, 0.0};  // twist and curvatures without load [1/m]
+  std::vector<PointMass> point_masses = {};
 };
 
 std::unique_ptr<Rod> heldRod(const Grips& grips) {
@@ -28,6 +30,9 @@ std::unique_ptr<Rod> heldRod(const Grips& grips) {
   p.young_modulus = grips.young_modulus;
   p.torsion_modulus = grips.young_modulus / 3.0;
   p.stretch = grips.stretch;
+  p.natural_shape.twist = grips.natural[0];
+  p.natural_shape.curvature = grips.natural.tail<2>();
+  p.point_masses = grips.point_masses;
   auto rod = std::make_unique<Rod>(p);
   for (const auto& [particle, type] : grips.holds) {
     const double along = 1.5 * particle / (p.segments - 1);
@@ -224,6 +229,14 @@ INSTANTIATE_TEST_SUITE_P(
               Stretch::FROM_MODULI,
               30e6,
               -4.0},
+        Grips{"coil", {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}}, Stretch::ZERO, 30e6, 0.0, {1.0, 0.6, -0.8}},
+        Grips{"bentAndLoaded",
+              {{2, Hold::CLAMPED}, {13, Hold::PINNED}, {24, Hold::CLAMPED}},
+              Stretch::FROM_MODULI,
+              30e6,
+              0.0,
+              {0.5, 0.3, 0.2},
+              {{0.0, 0.01}, {0.7, 0.02}, {2.25, 0.01}}},
         Grips{"oneHold", {{5, Hold::CLAMPED}}, Stretch::ZERO, 30e6}),
     [](const testing::TestParamInfo<Grips>& info) { return info.param.name; });
 

@@ -20,6 +20,10 @@ namespace control {
 //! it makes the predicted rate exact for a formation that moves as one. Differences over 0.1 m for each agent
 //! separately would have a bias that does not cancel. An assistant without usable copies counts as moving with the
 //! leader, whose gradients then include its part.
+//!
+//! What the rates leave over of the copies' displacements, X_c - X_0 - D_c dX / dp, is their parting. It is small, of
+//! second order, while the object follows its grips smoothly, and large where a fold snaps: one copy has the new
+//! shape already, or all of them still have the one that the object is about to leave.
 class Differences {
  public:
   Differences(int agents, int leader);
@@ -53,24 +57,28 @@ class Differences {
 
  private:
   using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Directions = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
   struct Agent {
     bool known = false;
     Rates rates;              // [3, K] of the coordinates of the points, the wrenches if told, and the minimum
+    Rows parting;             // [ready copies, 3 P] m, of the points
     Directions directions;    // [ready copies, 3] m, that the inverse is of
     Eigen::MatrixXd inverse;  // [3, ready copies]
   };
 
   void updateAgent(int index, const ObservationView& observation);
   void fill(Agent& agent, const ObservationView& observation);
+  double partingOf(const distance::Feature& feature, const Vector3& normal) const;
 
   int leader_;
   int points_ = 0;  // P
   std::vector<Agent> agents_;
-  std::vector<int> usable_;                                                        // copies of the agent at hand
-  Directions directions_;                                                          // [usable, 3] m
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> change_;  // [usable, K]
+  std::vector<int> usable_;  // copies of the agent at hand
+  Directions directions_;    // [usable, 3] m
+  Rates explained_;          // [3, 3 P] part of the changes that the rates take in
+  Rows change_;              // [usable, K]
 };
 
 }  // namespace control

@@ -56,6 +56,7 @@ class Features {
   std::vector<Vector3> obstacle_velocity;  //!< [M] m/s
   std::vector<std::int64_t> identity;      //!< [M] the same from state to state; -1: none
   std::vector<double> disturbance;         //!< [M] m/s, see DisturbanceObserver; 0 unless it is in use
+  std::vector<double> parting;             //!< [M] m, along the normal, see Differences; 0 with exact gradients
 
  private:
   int agents_ = 0;

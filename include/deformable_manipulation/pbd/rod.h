@@ -10,6 +10,9 @@
 namespace deformable_manipulation {
 namespace pbd {
 
+struct NaturalJoints;
+struct SegmentMasses;
+
 //! A rope or rod: rigid segments, joined by zero-stretch bending-twisting constraints (Deul et al.
 //! 2018), with small substeps (Macklin et al. 2019); Algorithm 1 of the paper.
 //!
@@ -22,6 +25,8 @@ class Rod final : public Body {
   ~Rod() override;
 
   const RodParameters& parameters() const { return parameters_; }
+  const std::shared_ptr<const NaturalJoints>& naturalJoints() const { return natural_; }
+  const std::shared_ptr<const SegmentMasses>& segmentMasses() const { return masses_; }
 
   //! Keys: young_modulus, torsion_modulus [Pa], damping [1/s], drag_coefficient, bending_retardation_time,
   //! torsion_retardation_time [s].
@@ -34,7 +39,7 @@ class Rod final : public Body {
   int pointCount() const override { return parameters_.segments + 1; }
   std::vector<double> arcLengths() const override;
   double freeLength(int particle, int other) const override;
-  double mass() const override { return parameters_.segments * parameters_.segmentMass(); }
+  double mass() const override { return parameters_.mass(); }
   double stretch() const override;
   std::string softness(double time_step, int substeps) const override;
   Wrench wrench(int particle, int copy = 0) const override;
@@ -44,7 +49,7 @@ class Rod final : public Body {
   std::unique_ptr<RestShapes> restShapes(const std::vector<HeldPoint>& agents) const override;
   void layOut() override;
 
-  //! Puts the object itself, at rest, into a shape, without a twist of its own.
+  //! Puts the object itself, at rest, into a shape, without a twist but its natural one.
   //! @param points [(segments + 1) x 3] m; segments lie between them, as long as they are anyway
   void setShape(const double* points);
 
@@ -75,6 +80,10 @@ class Rod final : public Body {
   struct State;
   Rod(const Rod& other);
 
+  void placeMasses();
+  const HeldPoint* firstClamped() const;
+  void shiftPositions(int segment, double by);
+  Vector3 centre(int segment, int copy) const;
   void describeJoints(double h);
   void closeGaps();
   void updateReferenceMotion();
@@ -82,7 +91,11 @@ class Rod final : public Body {
   void letReferenceFall();
   void placeCopy(int copy, const std::vector<Pose>& segments);
 
+  std::vector<Quaternion> framesFrom(int start, const Quaternion& frame, const std::vector<Vector3>& directions) const;
+
   RodParameters parameters_;
+  std::shared_ptr<const NaturalJoints> natural_;  // shared with clones
+  std::shared_ptr<const SegmentMasses> masses_;
   std::unique_ptr<State> state_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "deformable_manipulation/parameters/parameter_section.h"
 #include "deformable_manipulation/pbd/errors.h"
 #include "deformable_manipulation/pbd/types.h"
@@ -19,7 +21,25 @@ enum class RodSolver {
   DIRECT         //!< the whole chain at once, block tridiagonal
 };
 
-//! A straight rod of circular cross-section. Only the values are here; ranges, defaults and meanings of the keys are
+//! The shape that a rod has without load: straight, unless there are numbers other than zero or points.
+struct NaturalShape {
+  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();  //!< [1/m] about the y and the z axis of the segments
+  double twist = 0.0;                                   //!< [rad/m] about their x axis
+  std::vector<Vector3> points;                          //!< [m] its centre line, in place of the curvature
+
+  bool isStraight() const { return points.empty() && twist == 0.0 && curvature.isZero(0.0); }
+
+  //! Reads a section `natural_shape`.
+  static NaturalShape read(const ParameterSection& section);
+};
+
+//! A mass that a rod carries at a place: a marker, a plug, a fitting.
+struct PointMass {
+  double at;    //!< [m] along the rod, from its first end
+  double mass;  //!< [kg]
+};
+
+//! A rod of circular cross-section. Only the values are here; ranges, defaults and meanings of the keys are
 //! declared in Python, see docs/parameters.md.
 struct RodParameters {
   double length;           //!< [m]
@@ -33,6 +53,8 @@ struct RodParameters {
   double drag_coefficient = 0.0;          //!< of the cross-section in still air, across the axis
   double bending_retardation_time = 0.0;  //!< [s] viscosity over stiffness of bending (Kelvin-Voigt)
   double torsion_retardation_time = 0.0;  //!< [s] likewise of twist
+  NaturalShape natural_shape;
+  std::vector<PointMass> point_masses;
   RodSolver solver;
   int threads = 1;  //!< that advance the copies, eight in each; results do not depend on it
   Vector3 gravity;  //!< [m/s^2]
@@ -44,14 +66,19 @@ struct RodParameters {
   //! Notes every parameter that is out of range.
   void check(ParameterCheck& check) const;
 
+  double mass() const;                                        //!< [kg] of all, with the point masses
   double segmentLength() const { return length / segments; }  //!< [m]
-  double segmentMass() const;                                 //!< [kg]
+  double segmentMass() const;                                 //!< [kg] without point masses
   double transverseInertia() const;                           //!< [kg m^2] of a segment, across its axis
   double axialInertia() const;                                //!< [kg m^2] of a segment, about its axis
   double dragPerDistance() const;                             //!< [1/m] speed lost across the axis, per way through air
   double bendingStiffness() const;                            //!< E I [N m^2]
   double torsionStiffness() const;                            //!< G J [N m^2]
   double axialStiffness() const;                              //!< E A [N]
+
+ private:
+  void checkNaturalShape(ParameterCheck& check) const;
+  void checkPointMasses(ParameterCheck& check) const;
 };
 
 }  // namespace pbd

@@ -11,6 +11,9 @@ namespace {
 // equal ones, smoothly.
 constexpr double NEGLIGIBLE = 1e-6;
 
+// Part of the copies' parting by which the margin grows.
+constexpr double PARTING_SHARE = 0.3;
+
 // Part of the band beyond which rows begin to loosen.
 constexpr double FULL_PART = 0.7;
 
@@ -38,6 +41,7 @@ CollisionParameters CollisionParameters::read(const ParameterSection& collision)
   return {collision.number("offset"),
           collision.number("margin"),
           collision.number("speed_margin"),
+          collision.number("snap_margin"),
           collision.number("band"),
           PiecewiseLinearClassK::read(collision, "alpha"),
           PiecewiseLinearClassK::read(collision, "anticipation")};
@@ -57,7 +61,8 @@ void CollisionBarrier::addRows(const Features& features, const PredictedState& s
       g += features.gradient(m, agent);
       reach += team_.max_velocity * features.gradient(m, agent).lpNorm<1>();
     }
-    const double h = predictedDistance(features, m, state) - parameters_.offset - margin;
+    const double snap = std::min(PARTING_SHARE * features.parting[m], parameters_.snap_margin);
+    const double h = predictedDistance(features, m, state) - parameters_.offset - margin - snap;
     double carried = features.normal[m].dot(leader_velocity - obstacleVelocity(features, m)) +
                      std::min(0.0, features.disturbance[m]);
     if (team_.turns && features.haveTurns()) {

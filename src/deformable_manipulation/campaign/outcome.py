@@ -9,6 +9,7 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from deformable_manipulation.control.status import Status
+from deformable_manipulation.obstacles.spec import are_as_known
 from deformable_manipulation.recording.timeseries import TimeSeries, vector_columns
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
@@ -24,6 +25,7 @@ _ROUNDING = 1e-9
 # Whether a run could be answered: it was; nobody could; one who knows the path could; not known.
 KEPT, IMPOSSIBLE, POSSIBLE, UNKNOWN = "kept", "impossible", "possible", "unknown"
 _SHORTEST_STRETCH = 2.0  # s, of constrained motion: less has nothing to say about 1 Hz
+_MOST_WAITING = 0.5  # of a run: one with more says nothing about the assistant
 _RECOVERY = 10.0  # s, after which an assistant that was constrained has come back to its place
 
 
@@ -50,6 +52,12 @@ class RunOutcome:
     leader: str = ""  # what the controllers expect of it
     answer: str = ""  # what somebody could have done who knows the path: KEPT, IMPOSSIBLE ...
     least_overstretch: float = 0.0  # m, by which anybody must exceed the limits of stretch
+    waiting: float = 0.0  # share of the run in which an assistant waited, the largest of all
+
+    @property
+    def waits(self) -> bool:
+        """Whether an assistant waited for most of the run, such as for a camera."""
+        return self.waiting > _MOST_WAITING
 
     def misses(self, tolerance: float) -> bool:
         """Whether a limit was missed, lengths by more than the tolerance [m], or it broke down."""
@@ -107,6 +115,7 @@ def assess(
         final_error=_largest(error[:, -1:]),
         constrained=float(constrained.mean()) if constrained.size else 0.0,
         shape_error=largest_stretch(series.column("stretch")) or 0.0,
+        waiting=float((status == Status.WAITING).mean(axis=1).max()) if status.size else 0.0,
     )
 
 
@@ -174,7 +183,7 @@ def _is_free(scenario, distance) -> bool:
 
 def _true_margins(scenario, series: TimeSeries, barrier: str) -> np.ndarray:
     """h [m] of a barrier: as the controllers know it, or of the true distance if they do not."""
-    if barrier == "collision" and not all(each.known and each.real for each in scenario.obstacles):
+    if barrier == "collision" and not are_as_known(scenario.obstacles):
         return series.column("distance") - scenario.controller.collision.offset
     return _of_assistants(series, f"h_{barrier}")
 

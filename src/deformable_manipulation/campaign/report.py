@@ -31,6 +31,7 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any
         "lowest_distance": min((o.min_distance for o in outcomes), default=None),
         "deadlocks": sum(outcome.deadlock for outcome in outcomes),
         "stuck": _counted(outcomes, lambda outcome: outcome.stuck),
+        "waiting": sum(outcome.waits for outcome in outcomes),
         "answers": {
             answer: sum(outcome.answer == answer for outcome in outcomes)
             for answer in (IMPOSSIBLE, POSSIBLE, UNKNOWN)
@@ -45,10 +46,11 @@ def summarise(outcomes: Sequence[RunOutcome], tolerance: float) -> Dict[str, Any
 
 
 def is_acceptable(summary: Dict[str, Any]) -> bool:
-    """Whether no limit was violated, no run broke down or deadlocked, no program failed."""
+    """Whether all runs were done, limits were kept, and no assistant stood still without need."""
     return not (
         summary["not_completed"]
         or summary["deadlocks"]
+        or summary["waiting"]
         or summary["failed_programs"]
         or any(violation["runs"] for violation in summary["violations"].values())
     )
@@ -64,6 +66,7 @@ def worst(outcomes: Sequence[RunOutcome]) -> RunOutcome:
             outcome.failed > 0,
             violation,
             outcome.deadlock,
+            outcome.waits,
             outcome.oscillation,
             -outcome.index,
         )
@@ -83,6 +86,11 @@ def describe(summary: Dict[str, Any]) -> str:
     lines += _describe_answers(summary["answers"])
     lines.append(f"{'stuck':22}{summary['stuck']['runs']} runs, {_percent(summary['stuck'])}")
     lines.append(f"{'deadlocks':22}{summary['deadlocks']}, in free space")
+    if summary["waiting"]:
+        lines.append(
+            f"{'waiting':22}{summary['waiting']} runs, in which an assistant stood still for most "
+            "of the time, because something was not known to it"
+        )
     lines.append(
         f"{'programs relaxed':22}{summary['relaxed_programs']} in "
         f"{summary['runs_with_relaxed_programs']} runs; failed {summary['failed_programs']}"

@@ -3,10 +3,12 @@
 import dataclasses
 import math
 from functools import singledispatch
-from typing import TypeVar
+from typing import Dict, Sequence, Tuple, TypeVar
 
 import numpy as np
 
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.scenario.spec import MeshObstacle, ObstacleSpec, PolygonObstacle
 
 _POINTS = 84  # of the surface of random hills
@@ -19,6 +21,36 @@ _SIZES = (0.7, 1.3)  # of a mesh, in multiples of its own
 _Spec = TypeVar("_Spec", bound=ObstacleSpec)
 
 
+def random_obstacles(
+    obstacles: Sequence[ObstacleSpec], random: np.random.Generator
+) -> Tuple[ObstacleSpec, ...]:
+    """Each obstacle changed by itself; a map and what it is of are moved as one."""
+    mapped = [each for each in obstacles if not each.known or not (each.real or each.is_live)]
+    if all(each.real for each in mapped):
+        mapped = []  # there is no map: cameras see what is not known wherever it is
+    moved: Dict[str, ObstacleSpec] = {}
+    if mapped:
+        moved = dict(zip((each.name for each in mapped), _moved_as_one(mapped, random)))
+    return tuple(moved.get(each.name) or random_obstacle(each, random) for each in obstacles)
+
+
+def _moved_as_one(
+    obstacles: Sequence[ObstacleSpec], random: np.random.Generator
+) -> Tuple[ObstacleSpec, ...]:
+    """The obstacles shifted along the level axes, and turned about their midst."""
+    shift, turn = _random_move(random)
+    midst = np.mean([each.translation for each in obstacles if each.real], axis=0)
+
+    def place(translation: Vector) -> Vector:
+        x, y, z = np.subtract(translation, midst).tolist()
+        x, y, z = (midst + rotate(turn, (x, y, z)) + shift).tolist()
+        return x, y, z
+
+    return tuple(
+        each.at(place(each.translation), _product(turn, each.rotation)) for each in obstacles
+    )
+
+
 @singledispatch
 def random_obstacle(obstacle: ObstacleSpec, random: np.random.Generator) -> ObstacleSpec:
     """An obstacle of the same kind and of about the same size, in about the same place."""
@@ -27,17 +59,28 @@ def random_obstacle(obstacle: ObstacleSpec, random: np.random.Generator) -> Obst
 
 def _moved(obstacle: _Spec, random: np.random.Generator) -> _Spec:
     """The obstacle moved along the level axes and turned about the upright one."""
+    shift, turn = _random_move(random)
+    place = tuple((np.array(obstacle.translation) + shift).tolist())
+    return obstacle.at(place, _product(turn, obstacle.rotation))
+
+
+def _random_move(random: np.random.Generator) -> Tuple[np.ndarray, Quaternion]:
+    """A shift (3,) [m] along the level axes, and a turn about the upright one."""
     shift = np.append(random.uniform(-_SHIFT, _SHIFT, 2), 0.0)
     half = 0.5 * random.uniform(-math.pi, math.pi)
-    x, y, z, w = obstacle.rotation
-    sine, cosine = math.sin(half), math.cos(half)
-    turned = (
+    return shift, (0.0, 0.0, math.sin(half), math.cos(half))
+
+
+def _product(turn: Quaternion, rotation: Quaternion) -> Quaternion:
+    """A turn about the upright axis after a rotation."""
+    _, _, sine, cosine = turn
+    x, y, z, w = rotation
+    return (
         cosine * x - sine * y,
         cosine * y + sine * x,
         cosine * z + sine * w,
         cosine * w - sine * z,
     )
-    return obstacle.at(tuple((np.array(obstacle.translation) + shift).tolist()), turned)
 
 
 @random_obstacle.register

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from deformable_manipulation.campaign.leader_paths import PLACES, NoPath, random_path
-from deformable_manipulation.campaign.terrain import random_obstacle
+from deformable_manipulation.campaign.reasons import Reasons
+from deformable_manipulation.campaign.terrain import random_obstacles
 from deformable_manipulation.control.overload import has_load_limits
 from deformable_manipulation.distance.minimum_distance import MinimumDistance
-from deformable_manipulation.motion.obstacle_motion import MovingObstacles, obstacle_places
+from deformable_manipulation.motion.obstacle_motion import obstacle_places
 from deformable_manipulation.reading.errors import ScenarioError
-from deformable_manipulation.running.closed_loop import ClosedLoop, make_minimum_distance
+from deformable_manipulation.running.closed_loop import ClosedLoop
+from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario import scenario_from_mapping
 from deformable_manipulation.scenario.mapping import scenario_to_mapping
 from deformable_manipulation.scenario.spec import (
@@ -57,26 +59,27 @@ def vary(scenario: Scenario, ranges: Ranges, seed: int, index: int) -> Scenario:
     Raises:
         NoVariation: none was found that can be started.
     """
-    reason = ""
+    reasons = Reasons()
     for attempt in range(_ATTEMPTS):
         random = np.random.default_rng([seed, index, attempt])
         try:
             varied = _checked(_draw(scenario, ranges, random), index)
         except (NoPath, ScenarioError) as error:
-            reason = str(error)
+            reasons.add(error)
             continue
-        reason = _problem_at_start(varied)
-        if not reason:
+        problem = _problem_at_start(varied)
+        if not problem:
             return varied
+        reasons.add(problem)
     raise NoVariation(
-        f"run {index}: none of {_ATTEMPTS} random variations can be started: {reason}"
+        f"run {index}: none of {_ATTEMPTS} random variations can be started; {reasons}"
     )
 
 
 def _draw(scenario: Scenario, ranges: Ranges, random) -> Scenario:
     obstacles = scenario.obstacles
     if ranges.terrain:
-        obstacles = tuple(random_obstacle(obstacle, random) for obstacle in obstacles)
+        obstacles = random_obstacles(obstacles, random)
     drawn = dataclasses.replace(
         scenario,
         object=scenario.object.with_random_material(lambda: _factor(ranges.material, random)),
@@ -162,9 +165,8 @@ def _clearance(scenario: Scenario):
 
 def _problem_at_start(scenario: Scenario) -> str:
     """Why nobody would start so; empty: it is fine."""
-    distance = make_minimum_distance(scenario)
-    MovingObstacles(scenario).move(distance, 0.0)
-    lowest = distance.compute(make_simulation(scenario).points()[:1]).minimum[0]
+    simulation = make_simulation(scenario)
+    lowest = TrueDistance(scenario, simulation).of(simulation.points()[:1])
     if lowest < scenario.controller.collision.offset + _SPARE:
         return "the object starts too close to the obstacles"
     if has_load_limits(scenario):

@@ -5,14 +5,14 @@ order, or whether it is done again after its worker was lost. (Processors with o
 instructions round differently; docs/safety.md.)
 """
 
-import multiprocessing
 import os
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
 from typing import Iterator, Sequence
 
 from deformable_manipulation.campaign.outcome import RunOutcome
 from deformable_manipulation.campaign.runs import Runs
+from deformable_manipulation.system.worker_pool import worker_pool
 
 _TRIES = 3  # of a run whose workers are lost
 _PATIENCE = 60.0  # s, until a cluster's first worker has come
@@ -47,16 +47,10 @@ def run_here(campaign: Runs, indices: Sequence[int], workers: int) -> Iterator[R
 
 
 def _in_one_pool(campaign, indices, workers) -> Iterator[RunOutcome]:
-    # Not spawned: in a devel space a fresh interpreter that gets this one's path finds the sources
-    # before the package with the compiled modules.
-    context = multiprocessing.get_context("fork")
-    pool = ProcessPoolExecutor(workers, context, _start_worker, (campaign,))
-    try:
+    with worker_pool(workers, _start_worker, campaign) as pool:
         futures = [pool.submit(_run, index) for index in indices]
         for future in as_completed(futures):
             yield future.result()
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
 
 
 _campaign: Runs  # of this worker process

@@ -1,11 +1,16 @@
 """Arguments that several commands have in common."""
 
 import argparse
+import math
 import re
 from pathlib import Path
 from typing import List, Sequence, Tuple
 
+from deformable_manipulation.reading.errors import Problem, ScenarioError, show
+from deformable_manipulation.reading.overrides import Override
 from deformable_manipulation.scenario.knowledge import MUJOCO, OWN
+
+_WORLD = "knowledge.world"
 
 # Where the next key of several begins: values may have blanks, too.
 _NEXT_KEY = re.compile(r"\s+(?=\w+(?:\.\w+)*=)")
@@ -28,35 +33,44 @@ def add_scenario_arguments(
 ) -> None:
     """Add the scenario, and ``--set`` to replace values of it."""
     parser.add_argument(name, help=description)
+    add_set_argument(parser, "replace a value of the scenario; use an index for list items")
+
+
+def add_set_argument(parser: argparse.ArgumentParser, description: str) -> None:
+    """Add ``--set``, which replaces values of a file."""
     parser.add_argument(
         "--set",
         metavar="KEY.PATH=VALUE",
         type=override,
         action="append",
         default=[],
-        help="replace a value of the scenario; use an index for list items; can be repeated",
+        help=f"{description}; can be repeated",
     )
 
 
 def add_world_argument(parser: argparse.ArgumentParser) -> None:
-    """Add ``--world``, which is short for ``--set knowledge.world=...``."""
+    """Add ``--world``, which :func:`scenario_overrides` takes in."""
     parser.add_argument(
         "--world",
         choices=(OWN, MUJOCO),
-        dest="set",
-        type=str,
-        action=_WorldAction,
-        default=argparse.SUPPRESS,
         help=f"what simulates the true object: this package ({OWN}) or another engine; the "
-        "controllers then see poses of the grips alone. Short for --set knowledge.world=...",
+        f"controllers then see poses of the grips alone. Short for --set {_WORLD}=...",
     )
 
 
-class _WorldAction(argparse.Action):
-    """Appends the override that an option is short for."""
+def scenario_overrides(arguments: argparse.Namespace) -> List[Override]:
+    """What replaces values of the scenario: all of ``--set``, and ``--world``.
 
-    def __call__(self, parser, namespace, values, option_string=None):
-        namespace.set = [*namespace.set, ("knowledge.world", values)]
+    Raises:
+        ScenarioError: both say what the world is.
+    """
+    if arguments.world is None:
+        return arguments.set
+    for key, value in arguments.set:
+        if key == _WORLD:
+            text = f"cannot be set beside --world {arguments.world}; remove one of the two"
+            raise ScenarioError([Problem(_WORLD, text, show(value))], "arguments")
+    return [*arguments.set, (_WORLD, arguments.world)]
 
 
 def override(text: str) -> Tuple[str, str]:
@@ -96,3 +110,14 @@ def times_of(text: str) -> Sequence[float]:
             f"'{text}' is not a list of times: use numbers >= 0 and commas, as in 30,60,130"
         )
     return times
+
+
+def number(text: str) -> float:
+    """A finite number; raises argparse.ArgumentTypeError where it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return value

@@ -5,7 +5,11 @@ import sys
 from itertools import combinations
 from typing import Iterator, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import add_scenario_arguments
+from deformable_manipulation.commands.arguments import (
+    add_scenario_arguments,
+    add_world_argument,
+    scenario_overrides,
+)
 from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.last_word import say_after_parent
@@ -28,6 +32,7 @@ examples:
   check_scenario rope_one_assistant             a scenario of this package, by its name
   check_scenario my_scenario.yaml               a file
   check_scenario my_scenario.yaml --set controller.gain=2 --set leader.waypoints.1.time=12
+  check_scenario my_scenario.yaml --world mujoco    with another engine's object
   check_scenario --resolved my_scenario.yaml    with every default filled in and file read
 
 exit status: 0 correct, 1 mistakes (listed on stderr), 2 wrong usage
@@ -38,7 +43,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     """Run the command; returns its exit status."""
     arguments = _parser().parse_args(argv)
     try:
-        scenario = load_scenario(arguments.scenario, arguments.set + arguments.sets)
+        scenario = load_scenario(arguments.scenario, scenario_overrides(arguments) + arguments.sets)
         problems = list(launch_problems(arguments, scenario))
         if problems:
             raise ScenarioError(problems, "launch arguments")
@@ -65,7 +70,7 @@ def _tell(scenario: Scenario, given: str) -> int:
 
     try:
         inspection = inspect_scenario(scenario)
-    except ValueError as error:
+    except (ValueError, RuntimeError) as error:
         return fail("check_scenario", "the scenario cannot be simulated: {}".format(error))
     print("{}: correct".format(given))
     for line in (*summary(scenario), *inspection.facts):
@@ -84,6 +89,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_scenario_arguments(parser)
+    add_world_argument(parser)
     parser.add_argument(
         "--resolved",
         action="store_true",

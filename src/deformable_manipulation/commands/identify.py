@@ -8,7 +8,11 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from deformable_manipulation.commands.arguments import command_parser, folder_name, override
+from deformable_manipulation.commands.arguments import (
+    add_set_argument,
+    command_parser,
+    folder_name,
+)
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.commands.progress import ProgressDisplay
@@ -22,14 +26,16 @@ FITTED = (
     "bending_retardation_time",
     "drag_coefficient",
     "damping",
+    "natural_curvature",
     "aim",
 )
 USUAL = ("young_modulus", "bending_retardation_time", "aim")
 DESCRIPTION = """Fit a simulated rope or rod to recordings of a real one: bending stiffness over
-mass, damping, and the angles at which the grippers hold it. Windows of all recordings are
-replayed; a coarse grid comes first, then robust least squares. Prints values with standard
-deviations, what the data do not tell, and how well recordings are predicted that are left out of
-the fit. Writes object.yaml (a section object), report.md and identification.json."""
+mass, damping, the curvature without load, and the angles at which the grippers hold it. Windows
+of all recordings are replayed; a coarse grid comes first, then robust least squares. Prints
+values with standard deviations, what the data do not tell, and how well recordings are
+predicted that are left out of the fit. Writes object.yaml (a section object), report.md and
+identification.json."""
 EPILOG = """examples:
   identify swing_*.csv --object my_rope.yaml
   identify swing.csv --object my_rope.yaml --fit young_modulus,damping --window 2
@@ -65,7 +71,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 def _identify(arguments, measured) -> int:
     from deformable_manipulation.campaign.workers import cores
     from deformable_manipulation.identification.identify import identify
-    from deformable_manipulation.identification.parameters import AIM, Parameters
+    from deformable_manipulation.identification.parameters import AIM, CURVATURE, Parameters
     from deformable_manipulation.identification.problem import windows_of
     from deformable_manipulation.identification.workers import worker_map
     from deformable_manipulation.replaying.measured_shapes import read_measured_shapes
@@ -79,9 +85,14 @@ def _identify(arguments, measured) -> int:
         solver=measured.solver,
         substeps=measured.substeps,
     )
-    material = tuple(name for name in arguments.fit if name != AIM)
+    material = tuple(name for name in arguments.fit if name not in (AIM, CURVATURE))
     grips = len(held) if AIM in arguments.fit else 0
-    parameters = Parameters(measured.spec, material, grips)
+    curved = CURVATURE in arguments.fit
+    shape = measured.spec.natural_shape
+    if curved and shape is not None and shape.points:
+        fail(NAME, "object.natural_shape has points: --fit natural_curvature needs numbers")
+        return 1
+    parameters = Parameters(measured.spec, material, grips, curved)
     windows = windows_of(recordings, parameters, options, arguments.window)
     folder = writable_folder(arguments.output or Path("output/identification"))
     progress = ProgressDisplay(sys.stderr)
@@ -104,13 +115,14 @@ def _write(folder: Path, found, recordings: Sequence[str], windows: int) -> None
     )
 
     for name, value, spread in values(found):
-        print(f"{name:32} {value:>16}  +- {spread}")
+        print(f"{name:32} {value:>16}  {spread}")
     for sentence in statements(found):
         print(sentence)
     numbers = {
         "parameters": found.parameters.names,
         "vector": list(map(float, found.fit.vector)),
         "deviations": [None if math.isnan(x) else float(x) for x in found.fit.deviations],
+        "at_bounds": found.parameters.at_bounds(found.fit.vector).tolist(),
         "errors": {key: None if math.isnan(x) else x for key, x in found.errors.items()},
         "left_out": found.left_out,
     }
@@ -133,14 +145,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         required=True,
         help="YAML file with a section object to begin with, or the name of a scenario",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the file, as in object.damping=0; can be repeated",
-    )
+    add_set_argument(parser, "replace a value of the file, as in object.damping=0")
     parser.add_argument(
         "--fit",
         metavar="NAMES",

@@ -7,7 +7,12 @@ import sys
 from pathlib import Path
 from typing import Optional, Sequence, Tuple
 
-from deformable_manipulation.commands.arguments import command_parser, folder_name, override
+from deformable_manipulation.commands.arguments import (
+    add_set_argument,
+    command_parser,
+    folder_name,
+    number,
+)
 from deformable_manipulation.commands.failure import fail
 from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.reading.errors import ScenarioError
@@ -115,14 +120,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         required=True,
         help="YAML file with a section object, such as a scenario, or the name of a scenario",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY.PATH=VALUE",
-        type=override,
-        action="append",
-        default=[],
-        help="replace a value of the file, as in object.damping=0; can be repeated",
-    )
+    add_set_argument(parser, "replace a value of the file, as in object.damping=0")
     parser.add_argument(
         "--held",
         metavar="POINTS",
@@ -150,7 +148,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--from",
         dest="start",
         metavar="T",
-        type=float,
+        type=number,
         default=float("-inf"),
         help="time [s] at which to begin (default: the first)",
     )
@@ -158,7 +156,7 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--to",
         dest="end",
         metavar="T",
-        type=float,
+        type=number,
         default=float("inf"),
         help="time [s] at which to end (default: the last)",
     )

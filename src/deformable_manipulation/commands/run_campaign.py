@@ -29,6 +29,7 @@ from deformable_manipulation.commands.arguments import (
     add_world_argument,
     command_parser,
     folder_name,
+    scenario_overrides,
 )
 from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.output_folder import writable_folder
@@ -59,7 +60,7 @@ EPILOG = """examples:
   run_scenario output/fast/worst.yaml      # repeats the worst run
 
 The exit status is 0 if no limit is violated by more than the tolerance, no run broke down or
-deadlocked, and no program failed; 3 otherwise.
+deadlocked, no program failed, and no assistant waited for most of a run; 3 otherwise.
 """
 _FASTEST = 2.0  # m/s, of a leader
 _LONGEST = 1e5  # s
@@ -69,7 +70,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     """Run the command; returns its exit code."""
     arguments = _parse(argv)
     try:
-        scenario = load_scenario(arguments.scenario, arguments.set)
+        scenario = load_scenario(arguments.scenario, scenario_overrides(arguments))
         classes = _classes(scenario, arguments)
         for each in classes.campaigns:
             vary(each.scenario, each.ranges, each.seed, 0)  # what cannot be varied fails at once

@@ -10,6 +10,7 @@ from deformable_manipulation.commands.arguments import (
     add_scenario_arguments,
     add_world_argument,
     folder_name,
+    scenario_overrides,
 )
 from deformable_manipulation.commands.copied_name import name_warning
 from deformable_manipulation.commands.progress import ProgressDisplay
@@ -30,6 +31,9 @@ EXAMPLES = """examples:
   run_scenario rope_one_assistant --no-safety
   run_scenario rope_one_assistant --set simulation.duration=20 \\
       --set controller.collision.offset=0.1
+
+exit status: 0 the run was done to its end, whatever became of its limits (the summary tells); 1 it
+could not be done; 2 wrong usage. Use run_campaign where missed limits shall make a script fail.
 """
 
 
@@ -37,7 +41,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     """Run the command; returns its exit code."""
     arguments = _parse(argv)
     try:
-        scenario = load_scenario(arguments.scenario, arguments.set)
+        scenario = load_scenario(arguments.scenario, scenario_overrides(arguments))
         # Before the folder is made: a scenario that cannot be simulated leaves nothing behind.
         loop = _make_loop(scenario, arguments.safety)
         folder = arguments.output or _default_folder(scenario)

@@ -8,6 +8,7 @@ from deformable_manipulation.commands.arguments import (
     add_scenario_arguments,
     command_parser,
     folder_name,
+    number,
     times_of,
 )
 
@@ -96,7 +97,7 @@ def _add_picture_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--timeout",
-        type=float,
+        type=number,
         default=60.0,
         metavar="SECONDS",
         help="how long to wait for each picture (default: 60)",

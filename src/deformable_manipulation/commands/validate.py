@@ -22,6 +22,8 @@ CASE_NAMES = (
     "convergence",
     "motion",
     "viscosity",
+    "natural_shape",
+    "point_masses",
     "wrenches",
     "fabrics",
     "fabric_gradients",

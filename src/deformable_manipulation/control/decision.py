@@ -49,6 +49,7 @@ class Decision:
     slack: Mapping[str, float] = field(default_factory=dict)
     solve_time: float = 0.0  # s, safety filter alone
     computation_time: float = 0.0  # s, whole update
+    reason: str = ""  # why it waits, as a clause; empty: it does not
 
     @property
     def error_norm(self):

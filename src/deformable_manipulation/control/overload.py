@@ -24,7 +24,7 @@ def find_overloads(starts: Mapping[str, Mapping[str, float]]) -> List[Problem]:
         lowest = min(h[name] for h in starts.values())
         if kind.is_load and lowest < 0.0:
             text = (
-                f"the object at the start is {kind.missed}, by {kind.show(-lowest)} beyond the "
+                f"{kind.missed} at the start, by {kind.show(-lowest)} beyond the "
                 "limit; loosen the limit, or change the object or where the agents start"
             )
             problems.append(Problem(f"controller.{name}", text))

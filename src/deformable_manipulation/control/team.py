@@ -249,6 +249,7 @@ class TeamController:
             slack=slack,
             solve_time=native.solve_time,
             computation_time=computation_time,
+            reason=fault if status is Status.WAITING else "",
         )
 
     def _by_barrier(self, values):

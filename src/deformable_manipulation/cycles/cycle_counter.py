@@ -32,9 +32,8 @@ class CycleCounter:
     @property
     def summary(self):
         """The counts in words, which ``benchmark loop`` reads."""
-        return (
-            f"Overruns: {self.overruns} of {self.answered} cycles, {self.skipped} states skipped."
-        )
+        skipped = f"{self.skipped} {'state' if self.skipped == 1 else 'states'} skipped"
+        return f"Overruns: {self.overruns} of {self.answered} cycles, {skipped}."
 
     def _gap(self, state):
         newest = self._newest

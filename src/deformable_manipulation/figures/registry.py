@@ -24,7 +24,7 @@ BENCHMARKS = "docs/benchmarks.md"
 _PYTHON = "src/deformable_manipulation"
 # Parts of the Python package that a run without ROS does not depend on.
 _OTHER_PARTS = (
-    *("authoring", "benchmarks", "campaign", "commands", "figures", "plotting", "recording"),
+    *("authoring", "benchmarks", "campaign", "commands", "figures", "plots", "recording"),
     *("reproduction", "ros", "validation"),
 )
 
@@ -121,6 +121,12 @@ SUBJECT_LIST: Sequence[Subject] = (
         "run_campaign SCENARIO --runs N --seed 31 --duration 50 --speed M/S [OPTIONS]",
         CAMPAIGNS,
         fast_leaders.measure_fast_leaders,
+    ),
+    Subject(
+        {"fast_leaders_beside": SAFETY},
+        "run_campaign SCENARIO --runs N --seed 31 --duration 50 --speed M/S [OPTIONS]",
+        CAMPAIGNS,
+        fast_leaders.measure_fast_leaders_beside,
     ),
     Subject(
         {"announcements": SAFETY},

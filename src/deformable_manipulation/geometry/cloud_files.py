@@ -81,11 +81,12 @@ def _read_npy(data: bytes) -> np.ndarray:
     try:
         points = np.load(io.BytesIO(data), allow_pickle=False)
     except (ValueError, EOFError, OSError) as error:
-        raise FormatError("it is no array of NumPy: {}".format(error)) from error
+        raise FormatError("it is no array of numbers, or it is broken") from error
     if not isinstance(points, np.ndarray) or points.dtype.kind not in "fiu":
         raise FormatError("it is no array of numbers")
     if points.ndim < 2 or points.shape[-1] < 3:
-        raise FormatError("it has the shape {}; it must be (points, 3)".format(points.shape))
+        sizes = " x ".join(map(str, points.shape)) or "a single number"
+        raise FormatError("its size is {}; it must be N x 3, a row per point".format(sizes))
     return points.reshape(-1, points.shape[-1])[:, :3]
 
 

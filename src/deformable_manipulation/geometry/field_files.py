@@ -69,8 +69,8 @@ def _fault(distances: np.ndarray, origin: np.ndarray, spacing: np.ndarray) -> st
         if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
             return "{} holds no numbers".format(key)
     if distances.ndim != 3 or min(distances.shape) < 2 or distances.size > MOST_VALUES:
-        return "distances have the shape {}; it must be (X, Y, Z), each 2 or more".format(
-            distances.shape
+        return "the size of distances is {}; it must be X x Y x Z, each 2 or more".format(
+            " x ".join(map(str, distances.shape)) or "a single number"
         )
     if origin.shape != (3,) or not (np.abs(origin) <= LARGEST_COORDINATE).all():
         return "origin must be three finite numbers of at most {:g} m".format(LARGEST_COORDINATE)

@@ -34,6 +34,8 @@ class Identification:
             modulus.
         left_out: mean per coordinate [m] of recordings that were left out of the fit, and of those
             in it; None without cross-validation.
+        straight: relative change of the mean distance if all else is fitted without the natural
+            curvature; None if that was not fitted.
     """
 
     parameters: Parameters
@@ -41,6 +43,7 @@ class Identification:
     errors: Dict[str, float]
     torsion: Sequence[float]
     left_out: Optional[Sequence[float]]
+    straight: Optional[float] = None
 
 
 def identify(
@@ -66,8 +69,9 @@ def identify(
     errors = _mean(problem.mean_errors(result.vector))
     torsion = _torsion_matters(problem, result.vector)
     left_out = _cross_validate(problem, result.vector, folds) if folds > 1 else None
+    straight = _curvature_matters(problem, result.vector) if parameters.curved else None
     progress(1.0)
-    return Identification(parameters, result, errors, torsion, left_out)
+    return Identification(parameters, result, errors, torsion, left_out, straight)
 
 
 class _Counter:
@@ -134,6 +138,16 @@ def _torsion_matters(problem: Problem, vector: np.ndarray) -> List[float]:
         few.parameters = dataclasses.replace(problem.parameters, spec=other)
         distances.append(_mean(few.mean_errors(vector))["mean_distance"])
     return [distance / distances[0] - 1.0 for distance in distances[1:]]
+
+
+def _curvature_matters(problem: Problem, vector: np.ndarray) -> float:
+    """Relative change of the mean distance without the natural curvature, all else fitted anew."""
+    curved = _mean(problem.mean_errors(vector))["mean_distance"]
+    straight = problem.subset(problem.windows)
+    straight.parameters, others = problem.parameters.straight(vector)
+    if others.size:
+        others = fit(straight, others, _ITERATIONS).vector
+    return _mean(straight.mean_errors(others))["mean_distance"] / curved - 1.0
 
 
 def _cross_validate(problem: Problem, vector: np.ndarray, folds: int) -> Sequence[float]:

@@ -114,9 +114,7 @@ def windows_of(
     """
     windows = []
     for number, shapes in enumerate(recordings):
-        end = shapes.time[-1]
-        starts = np.arange(shapes.time[0], max(end - length, shapes.time[0]) + 1e-9, length)
-        for start in starts:
+        for start in _starts(shapes.time, length):
             part = shapes.between(start, start + length)
             if len(part.time) > 2:
                 windows.append(Window(number, Replay(parameters.spec, part, options)))
@@ -126,3 +124,11 @@ def windows_of(
             "recordings"
         )
     return windows
+
+
+def _starts(time: np.ndarray, length: float) -> np.ndarray:
+    """Starts [s] of the windows in which something was measured, one length after the other."""
+    begin, end = time[0], time[-1]
+    numbers = np.unique(np.floor((time - begin) / length))
+    starts = begin + length * numbers
+    return starts[starts <= max(end - length, begin) + 1e-9]

@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
@@ -70,9 +70,11 @@ class FabricSpec(ObjectSpec):
     jacobian = "perturbed_copies"
     disturbance_filter = 0.0
     horizon_length = 0.0
-    # A fold that snaps moves the nearest point by some millimetres before anything can answer.
+    # A fold that snaps moves the nearest point by some millimetres before anything can answer, and
+    # not every snap shows in the copies before.
     collision_margin = 0.01
     collision_speed_margin = 0.2
+    collision_snap_margin = 0.01
     has_joints = False
     is_surface = True
     rviz_example = "fabric_three_assistants"
@@ -114,6 +116,10 @@ class FabricSpec(ObjectSpec):
         """A vertex of the undeformed fabric [m], in the fixed frame."""
         offset = rotate(self.pose.orientation, self.vertices[particle])
         return tuple(p + o for p, o in zip(self.pose.position, offset))
+
+    def particle_orientation(self, particle: int) -> Quaternion:
+        """See :meth:`.ObjectSpec.particle_orientation`."""
+        return self.pose.orientation
 
     def free_length(self, first: int, second: int) -> float:
         """The shortest way [m] between two vertices over the surface."""

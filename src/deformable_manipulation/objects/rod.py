@@ -3,18 +3,34 @@
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Callable, Iterator, Tuple
+from functools import lru_cache
+from typing import Callable, Iterator, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.geometry.rotation import rotate
+from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
+from deformable_manipulation.objects.natural_shape import (
+    NATURAL_SHAPE,
+    NaturalShape,
+    check_natural_shape,
+)
+from deformable_manipulation.objects.point_mass import POINT_MASS, PointMass, check_point_masses
 from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.pose import POSE, Pose
-from deformable_manipulation.reading.readers import Choice, Integer, Node, Number, Section
+from deformable_manipulation.reading.readers import (
+    Choice,
+    Integer,
+    Items,
+    Node,
+    Number,
+    Section,
+    Unreadable,
+)
 
 _SUBSTEPS = 2  # for the direct solver
 # Chains of more segments take more if they hardly resist bending: the length over which they bend
@@ -99,6 +115,20 @@ class RodSpec(ObjectSpec):
         default=0.0,
         native=True,
     )
+    natural_shape: Optional[NaturalShape] = parameter(
+        NATURAL_SHAPE,
+        "Shape without load, if it is not straight.",
+        default=None,
+        default_text="straight",
+        native=True,
+    )
+    point_masses: Tuple[PointMass, ...] = parameter(
+        Items(POINT_MASS),
+        "Masses that the rod carries: markers, plugs, end fittings.",
+        default=(),
+        default_text="none",
+        native=True,
+    )
     pose: Pose = parameter(
         POSE,
         "Pose of the undeformed object.",
@@ -113,6 +143,7 @@ class RodSpec(ObjectSpec):
     horizon_length = 3.0
     collision_margin = 0.002
     collision_speed_margin = 0.0
+    collision_snap_margin = 0.0
     has_joints = True
     is_surface = False
     rviz_example = "rope_one_assistant"
@@ -138,9 +169,17 @@ class RodSpec(ObjectSpec):
 
     def particle_position(self, particle: int) -> Vector:
         """Centre of a segment of the undeformed rod [m], in the fixed frame."""
+        if self.natural_shape is not None:
+            return _natural_poses(self)[0][particle]
         along = (particle + 0.5) * self.length / self.segments
         offset = rotate(self.pose.orientation, (along, 0.0, 0.0))
         return tuple(p + o for p, o in zip(self.pose.position, offset))
+
+    def particle_orientation(self, particle: int) -> Quaternion:
+        """See :meth:`.ObjectSpec.particle_orientation`."""
+        if self.natural_shape is not None:
+            return _natural_poses(self)[1][particle]
+        return self.pose.orientation
 
     def free_length(self, first: int, second: int) -> float:
         """Length of rod [m] between the centres of two segments."""
@@ -168,7 +207,7 @@ class RodSpec(ObjectSpec):
         )
 
     def refined(self, factor: int) -> "RodSpec":
-        """See :meth:`.ObjectSpec.refined`."""
+        """The same rod in ``factor`` times as many segments."""
         return dataclasses.replace(self, segments=factor * self.segments)
 
     def with_random_material(self, draw: Callable[[], float]) -> "RodSpec":
@@ -188,12 +227,17 @@ class RodSpec(ObjectSpec):
     @property
     def stiffness_over_mass(self) -> float:
         """Bending stiffness over mass per length, E I / (rho A) [m^4/s^2]."""
-        return self.bending_stiffness * self.length / self.mass
+        return self.bending_stiffness / self.mass_per_length
 
     @property
     def mass(self) -> float:
-        """Of the whole rod [kg]."""
-        return self.density * math.pi * self.radius**2 * self.length
+        """Of the whole rod with its point masses [kg]."""
+        return self.mass_per_length * self.length + sum(each.mass for each in self.point_masses)
+
+    @property
+    def mass_per_length(self) -> float:
+        """Without point masses [kg/m]."""
+        return self.density * math.pi * self.radius**2
 
     @property
     def bending_stiffness(self) -> float:
@@ -239,4 +283,21 @@ def read_rod(node: Node) -> RodSpec:
             "must be less than half of object.length ({:g} m)".format(rod.length),
             show(rod.radius),
         )
+    fits = (
+        check_natural_shape(node, rod.natural_shape, rod.length, rod.segments),
+        check_point_masses(node, rod.point_masses, rod.length),
+    )
+    if not all(fits):
+        raise Unreadable
     return rod
+
+
+@lru_cache(maxsize=16)
+def _natural_poses(rod: RodSpec) -> Tuple[Tuple[Vector, ...], Tuple[Quaternion, ...]]:
+    """Positions and orientations of the segments without load, laid out from its pose."""
+    body = make_body(rod)
+    return _rows(body.positions()), _rows(body.orientations())
+
+
+def _rows(array: np.ndarray) -> Tuple[Tuple[float, ...], ...]:
+    return tuple(tuple(map(float, row)) for row in array)

@@ -5,7 +5,7 @@ from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.reading.plain import plain
 
 
@@ -17,8 +17,8 @@ class ObjectSpec(ABC):
         jacobian: where its gradients come from, unless the scenario says so.
         disturbance_filter: time constant [s] of the disturbance observer, likewise.
         horizon_length: how far [s] its controllers look ahead, likewise.
-        collision_margin, collision_speed_margin: what is kept beyond the offset [m], and per speed
-            of the leader [s], likewise.
+        collision_margin, collision_speed_margin, collision_snap_margin: what is kept beyond the
+            offset [m], per speed of the leader [s], and at most where copies part [m], likewise.
         has_joints: whether it has joints, which ``simulation.solver`` is for.
         is_surface: whether it is made of triangles, and else a line of its points.
         rviz_example: the scenario whose RViz configuration shows this kind.
@@ -30,6 +30,7 @@ class ObjectSpec(ABC):
     horizon_length: ClassVar[float]
     collision_margin: ClassVar[float]
     collision_speed_margin: ClassVar[float]
+    collision_snap_margin: ClassVar[float]
     has_joints: ClassVar[bool]
     is_surface: ClassVar[bool]
     rviz_example: ClassVar[str]
@@ -61,6 +62,10 @@ class ObjectSpec(ABC):
         """Position [m] of a particle on the undeformed object, in the fixed frame."""
 
     @abstractmethod
+    def particle_orientation(self, particle: int) -> Quaternion:
+        """Orientation of a particle on the undeformed object, in the fixed frame."""
+
+    @abstractmethod
     def free_length(self, first: int, second: int) -> float:
         """Greatest distance [m] between two particles that does not stretch the object."""
 
@@ -75,10 +80,6 @@ class ObjectSpec(ABC):
     @abstractmethod
     def with_factors(self, stiffness: float, density: float) -> "ObjectSpec":
         """The same object with its stiffnesses and its density times a factor."""
-
-    def refined(self, factor: int) -> "ObjectSpec":
-        """The same object in ``factor`` times as many particles; rods only."""
-        raise NotImplementedError(f"a {self.type} has no finer mesh of the same shape")
 
     @abstractmethod
     def with_random_material(self, draw: Callable[[], float]) -> "ObjectSpec":

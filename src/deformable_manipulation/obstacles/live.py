@@ -10,6 +10,7 @@ from deformable_manipulation.obstacles.drawings import Dots, Drawing
 from deformable_manipulation.obstacles.leave_out import LEAVE_OUT, LeaveOut
 from deformable_manipulation.obstacles.nothing import nothing
 from deformable_manipulation.obstacles.spec import ObstacleSpec
+from deformable_manipulation.reading.names import TOPIC
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import Integer, Number
 
@@ -28,6 +29,15 @@ LEAST_POINTS = parameter(
 LEAVE_OUT_OF_IT = parameter(
     LEAVE_OUT, "What is seen, but is no obstacle.", default=LeaveOut(), default_text="all defaults"
 )
+
+
+def topic_with(content: str) -> Any:
+    """The declaration of the topic that the data come by.
+
+    Args:
+        content: of the messages, as a clause.
+    """
+    return parameter(TOPIC, "Topic with {}. Relative to the namespace of the run.".format(content))
 
 
 class SeenPoints(NamedTuple):
@@ -69,6 +79,12 @@ class LiveObstacle(ObstacleSpec):
         """How far [m] what is at a point may reach from it."""
         return 0.0
 
+    def require(self, count: int, things: str) -> None:
+        """Raise ValueError where data have too few things."""
+        if count < self.least_points:
+            text = "it has {} {}; {} at least are needed"
+            raise ValueError(text.format(count, things, self.least_points))
+
     @abstractmethod
     def piece(self, seen: SeenPoints) -> Any:
         """Data as a part of the obstacle, ready to be searched; threads may share it.
@@ -97,3 +113,30 @@ class LiveObstacle(ObstacleSpec):
 
     def description(self) -> str:
         return "{} from topic {}".format(self.kind, self.topic)
+
+
+class LiveMapObstacle(LiveObstacle):
+    """One whose newest data are all of it, and take the place of those before.
+
+    Attributes:
+        things: what the data are.
+    """
+
+    things: ClassVar[str]
+
+    @abstractmethod
+    def shape(self, values: np.ndarray) -> Any:
+        """The C++ core's obstacle of at least one thing (N, K), in the frame of the data."""
+
+    def piece(self, seen: SeenPoints) -> Any:
+        """See :class:`LiveObstacle`, like the other."""
+        self.require(len(seen.values), self.things)
+        if not len(seen.values):
+            return None
+        obstacle = self.shape(seen.values)
+        obstacle.set_pose(seen.translation, seen.rotation)
+        return obstacle
+
+    def made_of(self, pieces: Sequence[Any]) -> Any:
+        (newest,) = pieces
+        return nothing() if newest is None else newest.another()

@@ -10,9 +10,9 @@ from deformable_manipulation.obstacles.live import (
     TIMEOUT,
     LiveObstacle,
     SeenPoints,
+    topic_with,
 )
 from deformable_manipulation.obstacles.spec import NAME
-from deformable_manipulation.reading.names import TOPIC
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import LARGEST_COORDINATE, Number
 
@@ -23,11 +23,7 @@ class LiveCloudObstacle(LiveObstacle):
 
     kind: ClassVar[str] = "live_cloud"
     name: str = NAME
-    live_cloud: str = parameter(
-        TOPIC,
-        "Topic with the points (`sensor_msgs/PointCloud2`), of any layout. Relative to the "
-        "namespace of the run.",
-    )
+    live_cloud: str = topic_with("the points (`sensor_msgs/PointCloud2`), of any layout")
     radius: float = parameter(
         Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "Of the ball around each point, as of a [cloud](#obstacles-cloud).",
@@ -47,9 +43,7 @@ class LiveCloudObstacle(LiveObstacle):
         from deformable_manipulation import _distance
 
         cloud = _distance.PointCloud(seen.places)
-        if len(cloud) < self.least_points:
-            text = "it has {} points of which something can be made; {} at least are needed"
-            raise ValueError(text.format(len(cloud), self.least_points))
+        self.require(len(cloud), "points of which something can be made")
         return cloud
 
     def made_of(self, pieces: Sequence[Any]) -> Any:

@@ -1,7 +1,7 @@
 """Occupied cells of a map that is made while the run goes on."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -11,26 +11,24 @@ from deformable_manipulation.obstacles.live import (
     LEAST_POINTS,
     LEAVE_OUT_OF_IT,
     TIMEOUT,
-    LiveObstacle,
-    SeenPoints,
+    LiveMapObstacle,
+    topic_with,
 )
-from deformable_manipulation.obstacles.nothing import nothing
 from deformable_manipulation.obstacles.spec import NAME
-from deformable_manipulation.reading.names import TOPIC
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import Number
 
 
 @dataclass(frozen=True)
-class LiveVoxelObstacle(LiveObstacle):
+class LiveVoxelObstacle(LiveMapObstacle):
     """The cells around the points that a topic brings, as one solid."""
 
     kind: ClassVar[str] = "live_voxels"
+    things: ClassVar[str] = "cells"
     name: str = NAME
-    live_voxels: str = parameter(
-        TOPIC,
-        "Topic with the middles of occupied cells (`sensor_msgs/PointCloud2`): "
-        "`octomap_point_cloud_centers` of octomap_server. Relative to the namespace of the run.",
+    live_voxels: str = topic_with(
+        "the middles of occupied cells (`sensor_msgs/PointCloud2`): `octomap_point_cloud_centers` "
+        "of octomap_server"
     )
     size: float = parameter(
         Number("m", at_least=1e-3, at_most=1e3), "Side of the smallest cell: the map's resolution."
@@ -41,21 +39,10 @@ class LiveVoxelObstacle(LiveObstacle):
 
     @property
     def size_of_point(self) -> float:
-        """See :class:`.LiveObstacle`, like the other: to a corner of the smallest cell."""
+        """See :class:`.LiveObstacle`; to a corner of the smallest cell."""
         return 0.5 * np.sqrt(3.0) * self.size
 
-    def piece(self, seen: SeenPoints) -> Any:
-        if len(seen.values) < self.least_points:
-            text = "it has {} cells; {} at least are needed"
-            raise ValueError(text.format(len(seen.values), self.least_points))
-        if not len(seen.values):
-            return None
+    def shape(self, values: np.ndarray) -> Any:
         from deformable_manipulation import _distance
 
-        obstacle = _distance.MeshObstacle.of_cells(cells_around(seen.values, self.size), self.size)
-        obstacle.set_pose(seen.translation, seen.rotation)
-        return obstacle
-
-    def made_of(self, pieces: Sequence[Any]) -> Any:
-        (newest,) = pieces
-        return nothing() if newest is None else newest.another()
+        return _distance.MeshObstacle.of_cells(cells_around(values, self.size), self.size)

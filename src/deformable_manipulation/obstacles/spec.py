@@ -141,6 +141,11 @@ def are_numbers(values: Sequence[Any], count: int) -> bool:
     )
 
 
+def are_as_known(obstacles: Sequence[ObstacleSpec]) -> bool:
+    """Whether the controllers know all that is there, and nothing else."""
+    return all(each.known and each.real for each in obstacles)
+
+
 def placed(obstacle: ObstacleSpec, points: np.ndarray) -> np.ndarray:
     """Points (..., 3) [m] of an obstacle's own frame in the fixed frame."""
     columns = np.array([rotate(obstacle.rotation, tuple(axis)) for axis in np.eye(3)])

@@ -1,5 +1,6 @@
 """Pictures of a screen: whether they show something, when they have come to rest, saving them."""
 
+import math
 import time
 
 import numpy as np
@@ -10,6 +11,7 @@ _LEAST_SHARE = 1e-4  # of the picture, for a color; a thin rope from afar is har
 _LEAST_COLORS = 3  # beside the background
 _PERIOD = 0.1  # s between looks
 _SAME_LOOKS = 5  # in a row, for a picture at rest
+_START_SHARE = 0.2  # of the time that a program took to start: how long its picture is to rest
 
 
 def shows_scene(pixels):
@@ -23,6 +25,15 @@ def shows_scene(pixels):
     different = np.abs(colors - background).max(axis=1) > _CLEARLY_DIFFERENT
     counts = np.bincount(codes[different], minlength=1)
     return np.count_nonzero(counts >= _LEAST_SHARE * len(colors)) >= _LEAST_COLORS
+
+
+def same_looks_after(start):
+    """Looks in a row that tell a picture at rest, of a program that took so long [s] to start.
+
+    On a busy machine it draws as slowly as it has started: a picture that stays the same for half a
+    second may lack what has not been drawn yet.
+    """
+    return max(_SAME_LOOKS, math.ceil(_START_SHARE * start / _PERIOD))
 
 
 class PictureAtRest:

@@ -59,9 +59,14 @@ def parse_value(text: str):
         raise ValueError(_syntax_problem(error).message) from error
 
 
+# What PyYAML says in words of Python.
+_REASONS = {"found unhashable key": "a list or a section stands where a key is needed"}
+
+
 def _syntax_problem(error: Exception) -> Problem:
     mark = getattr(error, "problem_mark", None)
     reason = getattr(error, "problem", None) or " ".join(str(error).split()) or "unknown value"
+    reason = _REASONS.get(reason, reason)
     return Problem("", "is not valid YAML: {}".format(reason), line=mark and mark.line + 1)
 
 

@@ -8,6 +8,7 @@ from deformable_manipulation.motion.obstacle_motion import moving_obstacles
 from deformable_manipulation.recording import run_files
 from deformable_manipulation.recording.summary import summarise, write_summary
 from deformable_manipulation.recording.timeseries import CycleRecord, TimeSeries
+from deformable_manipulation.recording.waits import Wait
 from deformable_manipulation.scenario import scenario_to_yaml
 from deformable_manipulation.scenario.spec import Scenario
 
@@ -44,6 +45,7 @@ class RunRecorder:
         self._safety = safety
         self._start = start
         self._series = TimeSeries.of(scenario)
+        self._waits = {name: Wait() for name in self._series.assistants}
         # (time, points, agents, obstacles, model); one append each, never half a frame
         self._frames = []
         self._last_frame = -1
@@ -54,6 +56,9 @@ class RunRecorder:
     def record(self, record: CycleRecord) -> None:
         """Keep one cycle (copies all arrays)."""
         self._series.append(record)
+        for name, wait in self._waits.items():
+            decision = record.decisions[name]
+            wait.add(decision.status, decision.reason)
         record_rate, rate = self._frames_per_cycle
         frame = int(record.cycle * record_rate / rate + FRAME_TOLERANCE)
         if frame != self._last_frame:
@@ -77,7 +82,13 @@ class RunRecorder:
             RecordingError: a file cannot be written. The other files are written all the same.
         """
         summary = summarise(
-            self._scenario, self._series, wall_time, completed, self._safety, self._start
+            self._scenario,
+            self._series,
+            wall_time,
+            completed,
+            self._safety,
+            self._start,
+            self._waits,
         )
         failures = []
         for name, write, binary in (

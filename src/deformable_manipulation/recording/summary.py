@@ -2,7 +2,7 @@
 
 import json
 import math
-from typing import IO, Dict, List, Optional
+from typing import IO, Dict, List, Mapping, Optional
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.recording.provenance import machine, package_version
 from deformable_manipulation.recording.run_data import RunData
 from deformable_manipulation.recording.timeseries import TIMING_COLUMNS, TimeSeries
+from deformable_manipulation.recording.waits import Wait, describe_waits
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.stretch import largest_stretch, valid_stretch
@@ -27,10 +28,12 @@ def summarise(
     completed: bool,
     safety: bool,
     start: str,
+    waits: Mapping[str, Wait],
 ) -> dict:
     """The numbers of a run; None if there is none (no obstacle, nothing recorded).
 
-    ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``.
+    ``start`` is how the object rested at the start: ``stable``, ``moving`` or ``balanced``;
+    ``waits`` how long each assistant, by its name, waited and why.
     ``duration`` is the simulated time, ``min_distance`` that of the object itself over the run,
     ``min_model_distance`` that of the model where the controllers see one, with its largest
     correction and the cycles in which it disagreed with what was measured,
@@ -70,6 +73,7 @@ def summarise(
         },
         "qp_relaxed": int(np.count_nonzero(status == Status.RELAXED)),
         "qp_failed": int(np.count_nonzero(status == Status.FAILED)),
+        "waiting": {name: wait.summary(scenario.controller.rate) for name, wait in waits.items()},
         "timing": _timing(series, status),
         "version": package_version(),
         "machine": machine(),
@@ -105,7 +109,9 @@ def describe_recorded(run: RunData) -> str:
         for name, values in series.h.items():
             margins.setdefault(name, []).append(values)
     start, end = run.time_range
+    rate = len(run.time) / (end - start)
     outcome = {
+        "rate": rate,
         "min_distance": min_distance,
         "offset": run.offset,
         "worst_violation": violation,
@@ -118,6 +124,7 @@ def describe_recorded(run: RunData) -> str:
         },
         "qp_relaxed": int(np.count_nonzero(status == Status.RELAXED)),
         "qp_failed": int(np.count_nonzero(status == Status.FAILED)),
+        "waiting": {series.agent: _wait_in(series.status, rate) for series in run.assistants},
     }
     return "\n".join(["recorded: {:.2f} s".format(end - start), *_outcome_lines(outcome)])
 
@@ -138,6 +145,7 @@ def _outcome_lines(summary: dict) -> List[str]:
     for name, error in summary["tracking_error"].items():
         values = (_millimetres(error[key]) for key in ("rms", "max", "final"))
         lines.append("error of {}: rms {}, max {}, final {}".format(name, *values))
+    lines += describe_waits(summary["waiting"], summary["rate"])
     start = summary.get("start")  # which bags do not tell
     if start in _UNSTABLE_STARTS:
         lines.append("WARNING: {}".format(_UNSTABLE_STARTS[start]))
@@ -150,6 +158,14 @@ def _outcome_lines(summary: dict) -> List[str]:
         )
     lines.append("QPs relaxed {qp_relaxed}, failed {qp_failed}".format(**summary))
     return lines
+
+
+def _wait_in(statuses: np.ndarray, rate: float) -> dict:
+    """How long an assistant waited; recordings do not tell why."""
+    wait = Wait()
+    for status in statuses.tolist():
+        wait.add(status)
+    return wait.summary(rate)
 
 
 def _of_assistants(series: TimeSeries, column: str) -> np.ndarray:

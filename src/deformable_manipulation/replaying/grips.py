@@ -6,7 +6,7 @@ from typing import List, Sequence, Tuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from deformable_manipulation.replaying.measured_shapes import MeasuredShapes
+from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, MeasuredShapesError
 
 
 @dataclass(frozen=True)
@@ -43,10 +43,11 @@ def grips_of(
         segments: of the object.
 
     Raises:
-        MeasuredShapesError: a held point was never seen.
+        MeasuredShapesError: a held point was never seen, or points are at the same place.
         ValueError: two grippers hold the same segment.
     """
     points = shapes.without_gaps()
+    _require_apart(points[0])
     frames = _frames_along(points[0])
     grips = []
     for numbers in held:
@@ -60,12 +61,26 @@ def grips_of(
             grips.append(Grip(particle, "pinned", points[:, first], still))
             continue
         tangents = points[:, last] - points[:, first]
-        tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+        lengths = np.linalg.norm(tangents, axis=1, keepdims=True)
+        if not lengths.all():
+            time = shapes.time[int(lengths.argmin())]
+            raise MeasuredShapesError(
+                f"points {first} and {last} of a gripper are at the same place at {time:g} s"
+            )
+        tangents /= lengths
         beyond = (particle + 0.5) * length / segments - shapes.arc_lengths[first]
         positions = points[:, first] + beyond * tangents
         orientations = _carried(frames[first], tangents)
         grips.append(Grip(particle, "clamped", positions, orientations))
     return grips
+
+
+def _require_apart(points: np.ndarray) -> None:
+    same = np.flatnonzero((np.diff(points, axis=0) == 0.0).all(axis=1))
+    if same.size:
+        raise MeasuredShapesError(
+            f"points {same[0]} and {same[0] + 1} are at the same place in the first shape"
+        )
 
 
 def _smallest_turn(start: np.ndarray, end: np.ndarray) -> Rotation:

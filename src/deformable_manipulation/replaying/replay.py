@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import List, Optional, Sequence, Tuple
+from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,6 +15,8 @@ from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, Me
 _USUAL_STEP = 0.01  # s
 _FRAMES_OF_VELOCITY = 5
 _LENGTH_TOLERANCE = 1.001
+_LONGEST_STEP = 0.1  # s, of one call: in between, the command can be interrupted
+_LONGEST_GAP = 60.0  # s, between two shapes
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,9 @@ class Replay:
         for frame, step in enumerate(np.diff(self.shapes.time), start=1):
             for grip in grips:
                 body.move_to(grip.particle, grip.positions[frame], grip.orientations[frame], step)
-            body.step(step, self.substeps(spec, step))
+            pieces = max(1, math.ceil(step / _LONGEST_STEP - 1e-6))
+            for _ in range(pieces):
+                body.step(step / pieces, self.substeps(spec, step / pieces))
             predicted[frame] = self._points_of(body)
         return predicted
 
@@ -108,9 +112,10 @@ class Replay:
 
     def _along(self, values: np.ndarray) -> np.ndarray:
         """Values (M, 3) at the measured points, taken to the ends of the segments."""
-        if len(values) < 3:
-            return np.stack(
-                [np.interp(self._ends, self.shapes.arc_lengths, v) for v in values.T], axis=1
+        if len(values) == 2:  # a straight line, beyond both points, too
+            first, last = self.shapes.arc_lengths
+            return values[0] + np.outer(
+                (self._ends - first) / (last - first), values[1] - values[0]
             )
         spline = CubicSpline(self.shapes.arc_lengths, values, bc_type="natural")
         inside = np.clip(self._ends, *self.shapes.arc_lengths[[0, -1]])
@@ -144,10 +149,27 @@ def _check(spec: RodSpec, shapes: MeasuredShapes, options: ReplayOptions) -> Non
     held = options.held or default_held(count)
     if options.aim and len(options.aim) != len(held):
         mistakes.append(f"{len(held)} grippers hold it, but {len(options.aim)} aims are given")
-    for numbers in options.held or ():
-        if numbers[-1] >= count:
-            mistakes.append(
-                f"point {numbers[-1]} cannot be held: there are points 0 to {count - 1}"
-            )
+    mistakes += _held_mistakes(options.held or (), count)
+    gaps = np.diff(shapes.time)
+    if len(gaps) and gaps.max() > _LONGEST_GAP:
+        before = int(gaps.argmax())
+        mistakes.append(
+            f"nothing was measured from {shapes.time[before]:g} to {shapes.time[before + 1]:g} s; "
+            f"a gap is at most {_LONGEST_GAP:g} s long: cut the recording in two there"
+        )
     if mistakes:
         raise MeasuredShapesError("\n".join(mistakes))
+
+
+def _held_mistakes(held: Sequence[Tuple[int, ...]], count: int) -> Iterator[str]:
+    holders: Dict[int, int] = {}
+    for gripper, numbers in enumerate(held, start=1):
+        if numbers[-1] >= count:
+            yield f"point {numbers[-1]} cannot be held: there are points 0 to {count - 1}"
+        for number in numbers:
+            if number in holders:
+                yield (
+                    f"point {number} is held by grippers {holders[number]} and {gripper} (--held): "
+                    "a point belongs to one gripper; leave it out of one of them"
+                )
+            holders.setdefault(number, gripper)

@@ -69,7 +69,7 @@ def to_observation(state, distances, scenario, age=0.0, intent=None, obstacles=N
     require_frame("state", state, scenario)
     order = agent_order(state, scenario)
     scenario_index = np.full(len(state.agents) + 1, -1)
-    scenario_index[order] = np.arange(len(order))
+    scenario_index[order] = range(len(order))
     copies = len(state.displaced_agents)
     displaced = np.asarray(state.displaced_agents)
     if ((displaced < -1) | (displaced >= len(state.agents))).any():
@@ -396,6 +396,6 @@ def _flags(values, name, count):
 
 def _reshaped(values, name, shape):
     array = np.asarray(values)
-    if array.size != int(np.prod(shape)):
+    if array.size != math.prod(shape):  # numpy's takes ten times longer
         raise MessageError(f"{name}: {array.size} numbers, expected {' x '.join(map(str, shape))}")
     return array.reshape(shape)

@@ -22,7 +22,7 @@ from deformable_manipulation.system.program import Program, ProgramError
 _START = 120.0  # s, for the object to settle and all nodes to work
 _PATIENCE = 30.0  # s, beyond the recording's length
 _CALLER = "/loop_trial"
-_OVERRUNS = re.compile(r"/(\S+): Overruns: (\d+) of \d+ cycles(?:, (\d+) states skipped)?\.")
+_OVERRUNS = re.compile(r"/(\S+): Overruns: (\d+) of \d+ cycles(?:, (\d+) states? skipped)?\.")
 
 
 @dataclass(frozen=True)

@@ -95,7 +95,10 @@ def await_subscribers(publisher):
     stopped = threading.Event()
     rospy.on_shutdown(stopped.set)
     while publisher.get_num_connections() < wanted and not stopped.wait(0.01):
-        rospy.loginfo_throttle(5.0, f"Waiting for {wanted} subscribers of {publisher.name}.")
+        connected = publisher.get_num_connections()
+        rospy.loginfo_throttle(
+            5.0, f"Waiting for subscribers of {publisher.name}: {connected} of {wanted} are there."
+        )
 
 
 def every(period, callback):

@@ -6,7 +6,10 @@ from deformable_manipulation.cycles.cycle_counter import CycleCounter
 from deformable_manipulation.ros import node
 
 _WARNING_PERIOD = 60.0  # s
-_REMEDY = "This machine is too slow for the run: lower controller.rate, or use lockstep:=true."
+_REMEDY = (
+    "If there are many, this machine is too slow for the run: lower controller.rate, or use "
+    "lockstep:=true."
+)
 
 
 def age_of(state):

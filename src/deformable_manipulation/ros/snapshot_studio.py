@@ -2,12 +2,13 @@
 
 import contextlib
 import sys
+import time
 from pathlib import Path
 
 import rospy
 from visualization_msgs.msg import MarkerArray
 
-from deformable_manipulation.pictures.picture import PictureAtRest
+from deformable_manipulation.pictures.picture import PictureAtRest, same_looks_after
 from deformable_manipulation.ros.label_marker import label_markers
 from deformable_manipulation.ros.marker_publisher import MarkerPublisher
 from deformable_manipulation.ros.marker_watch import MarkerWatch
@@ -122,11 +123,12 @@ class SnapshotStudio:
         """A view that shows the present state, and its picture."""
         for attempt in range(_CRASHES + 1):
             with contextlib.ExitStack() as attempted:
+                started = time.monotonic()
                 try:
                     view = attempted.enter_context(
                         rviz_view(configuration, self._display, self._directory)
                     )
-                    picture = self._first_picture(view, timeout, looks)
+                    picture = self._first_picture(view, started, timeout, looks)
                 except ProgramCrashed as crash:
                     if attempt == _CRASHES:
                         raise
@@ -135,7 +137,7 @@ class SnapshotStudio:
                 stack.push(attempted.pop_all())
                 return view, picture
 
-    def _first_picture(self, view, timeout, looks):
+    def _first_picture(self, view, started, timeout, looks):
         self._markers.show(self.run.state)
         topic = MarkerWatch.topic
         publishers = view.program.wait_until(
@@ -145,7 +147,8 @@ class SnapshotStudio:
         )
         with contextlib.closing(MarkerWatch(self.run.state.header.stamp)) as watch:
             self._await_markers(view.program, watch, publishers, timeout)
-        return self._await_rest(view.program, timeout, **looks)
+        same_looks = same_looks_after(time.monotonic() - started)
+        return self._await_rest(view.program, timeout, same_looks=same_looks, **looks)
 
     def _await_markers(self, rviz, watch, publishers, timeout):
         def are_drawn():

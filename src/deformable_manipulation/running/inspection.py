@@ -8,15 +8,19 @@ import numpy as np
 
 from deformable_manipulation.control.overload import refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
-from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.distance.factory import make_known_distance
 from deformable_manipulation.motion.leader import LeaderPath
 from deformable_manipulation.obstacles.spec import obstacle_corners
 from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Number
+from deformable_manipulation.running.true_distance import TrueDistance
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.seeing.seen_obstacles import live_obstacles
+from deformable_manipulation.seeing.sight import Sight
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.simulation.observer import Observer
+from deformable_manipulation.worlds.factory import make_world, true_scenario
 
 _LENGTHS = ("offset", "margin")  # that barriers keep
 _SIZES_APART = 100.0  # times the object: an obstacle of that size is probably in another unit
@@ -24,6 +28,7 @@ _LARGE_PERTURBATION = 0.25  # of the free length between two agents
 _LARGE_MARGIN = 0.05  # of the free length between two agents
 _PATH_SAMPLES = 1000  # between waypoints, of which there are not many
 _ROUNDING = 1.0 + 1e-6
+_RESTS = {"stable": "at rest", "moving": "in motion", "balanced": "in an unstable balance"}
 
 
 @dataclass(frozen=True)
@@ -41,13 +46,15 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
         _pbd.ParameterError: the object does not settle.
         ValueError: an obstacle's shape is invalid.
         ScenarioError: the object at rest bears more than a limit allows.
+        WorldError: the engine of ``knowledge.world`` is missing.
+        RuntimeError: its simulation broke down.
     """
     simulation = make_simulation(scenario, copies=False)
     points = simulation.points()
-    distances = make_minimum_distance(scenario)
-    start = float(distances.compute(points[:1]).minimum[0])
+    truth = TrueDistance(scenario, simulation)
+    start = truth.of(points[:1])
     size = float(np.ptp(points[0], axis=0).max())
-    facts, warnings = [], list(getattr(distances, "warnings", ()))
+    facts, warnings = [], list(truth.warnings)
     facts.append("at the start the object reaches from {} to {} m".format(*_bounds(points[0])))
     warnings += filter(None, (simulation.rest_warning, simulation.softness))
     for obstacle in scenario.obstacles:
@@ -60,12 +67,28 @@ def inspect_scenario(scenario: Scenario) -> Inspection:
             warnings += _unlikely_size(obstacle, corners, size)
     if scenario.obstacles:
         facts.append("distance from the obstacles at the start: {:.4g} m".format(start))
-    facts += _barriers(scenario, Observer(scenario, simulation, distances, False))
+    sight = Sight(scenario) if live_obstacles(scenario) else None
+    observer = Observer(scenario, simulation, make_known_distance(scenario), False, sight)
+    observer.look()  # as in the first cycle, after which the controllers see obstacles
+    facts += _barriers(scenario, observer)
+    if sight is not None:
+        warnings += _unseen(scenario, sight)
+    if not scenario.knowledge.perfect:
+        facts.append(_true_object(scenario))
     warnings += _start_too_near(scenario, start)
     warnings += _path_warnings(scenario)
     warnings += _margin_warnings(scenario)
     warnings += scenario.object.warnings()
     return Inspection(tuple(facts), tuple(warnings))
+
+
+def _true_object(scenario: Scenario) -> str:
+    """What simulates the true object, and how it rests at the start; its engine must be there."""
+    truth = true_scenario(scenario)
+    world = make_world(truth, copies=False)
+    return "the true object, in the world {}, has {} particles and starts {}".format(
+        scenario.knowledge.world, truth.object.particles, _RESTS[world.rest]
+    )
 
 
 def _bounds(points: np.ndarray) -> Tuple[str, str]:
@@ -84,7 +107,7 @@ def _extent_of(obstacle, corners: np.ndarray) -> str:
 
 
 def _barriers(scenario: Scenario, observer: Observer) -> Iterator[str]:
-    """Each barrier in use: the limits it keeps, and the h of each assistant at the start."""
+    """Each barrier in use: its limits, and the h of each assistant at the start, as it knows it."""
     observation = observer.observe()
     starts = {}
     for names in teams(scenario):
@@ -130,6 +153,16 @@ def _start_too_near(scenario: Scenario, start: float) -> Iterator[str]:
                 1e3 * start, 1e3 * offset
             )
         )
+
+
+def _unseen(scenario: Scenario, sight: Sight) -> Iterator[str]:
+    """Obstacles of which the simulated camera shows nothing at the start."""
+    for index in live_obstacles(scenario):
+        refusal = sight.refusal(index)
+        if refusal:
+            yield "obstacle {}: {}. The assistants stand still until it is seen".format(
+                scenario.obstacles[index].name, refusal
+            )
 
 
 def _unseen_near_grips(scenario: Scenario, obstacle) -> Iterator[str]:

@@ -1,10 +1,13 @@
 """How far the object really is from the obstacles, whatever the controllers know of them."""
 
+from typing import Tuple
+
 import numpy as np
 
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.distance.factory import make_minimum_distance
 from deformable_manipulation.motion.obstacle_motion import MovingObstacles
+from deformable_manipulation.obstacles.spec import are_as_known
 from deformable_manipulation.scenario.spec import Scenario
 
 
@@ -14,12 +17,16 @@ class TrueDistance:
     Args:
         scenario: the checked scenario.
         simulation: that tells the time.
+
+    Attributes:
+        warnings: sentences about the obstacles' shapes.
     """
 
     def __init__(self, scenario: Scenario, simulation):
         self._simulation = simulation
-        self._is_seen = all(each.known and each.real for each in scenario.obstacles)
+        self._is_seen = are_as_known(scenario.obstacles)
         self._distance = make_minimum_distance(scenario)
+        self.warnings: Tuple[str, ...] = tuple(getattr(self._distance, "warnings", ()))
         self._obstacles = MovingObstacles(scenario)
 
     def of(self, points: np.ndarray) -> float:

@@ -65,7 +65,8 @@ class AgentSpec:
         UnitQuaternion(),
         "Orientation of the held particle. A clamped particle keeps it.",
         default=(0.0, 0.0, 0.0, 1.0),
-        default_text="`object.pose.orientation`",
+        default_text="that of the particle on the undeformed object: `object.pose.orientation`, "
+        "unless it has a `natural_shape`",
     )
 
 
@@ -149,5 +150,5 @@ def _complete(name: str, draft: Draft, spec) -> AgentSpec:
     if values["start"] is None:
         values["start"] = spec.particle_position(values["particle"])
     if values["orientation"] is None:
-        values["orientation"] = spec.pose.orientation
+        values["orientation"] = spec.particle_orientation(values["particle"])
     return AgentSpec(name=name, **values)

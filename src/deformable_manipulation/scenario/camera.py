@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.obstacles.spec import are_as_known
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.names import FRAME, TOPIC
 from deformable_manipulation.reading.parameter import parameter
@@ -171,7 +172,7 @@ def check_presence(report: Report, obstacles) -> None:
 
 def check_knowledge(report: Report, obstacles, knowledge) -> None:
     """Imperfect knowledge is of runs whose obstacles are known."""
-    if not knowledge.sees_object and not all(each.known and each.real for each in obstacles):
+    if not knowledge.sees_object and not are_as_known(obstacles):
         report.add(
             ("knowledge",),
             "cannot be combined with obstacles that are live, not known or not real; remove one of "

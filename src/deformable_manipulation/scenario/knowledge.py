@@ -76,7 +76,7 @@ class KnowledgeSpec:
         "segments.",
         default=1,
         default_text="3 for rods in the world `mujoco`, else 1",
-        allowed="1 for fabrics",
+        allowed="1 for fabrics; at most 300 pieces in the world `mujoco`",
     )
     dropped_cycles: float = parameter(
         Number("1", at_least=0.0, at_most=0.99),

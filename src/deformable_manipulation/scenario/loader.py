@@ -27,6 +27,7 @@ from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
 from deformable_manipulation.scenario.orientation import check_orientation
 from deformable_manipulation.scenario.spec import Scenario
+from deformable_manipulation.scenario.world import check_world
 
 SCENARIO = Section(Scenario, defaults={"obstacles": ()})
 
@@ -151,6 +152,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(checks.check_time, "controller", "simulation")
     check(knowledge.check_delay, "controller", "knowledge")
     check(knowledge.check_loads, "controller", "knowledge")
+    check(check_world, "object", "knowledge")
     check(check_correction, "object", "correction")
     check(check_measured_points, "knowledge", "correction")
     check(check_camera, "frame", "obstacles", "controller", "camera")

@@ -9,6 +9,8 @@ import sys
 from typing import Any, Dict, Iterable, List, Sequence, Tuple
 
 from deformable_manipulation.objects.kinds import KINDS
+from deformable_manipulation.objects.natural_shape import NATURAL_SHAPE
+from deformable_manipulation.objects.point_mass import POINT_MASS
 from deformable_manipulation.obstacles.kinds import COMMON_KEYS
 from deformable_manipulation.obstacles.kinds import KINDS as OBSTACLE_KINDS
 from deformable_manipulation.obstacles.leave_out import LEAVE_OUT, OWN_SHAPE
@@ -67,6 +69,8 @@ def sections() -> Dict[str, Any]:
     return {
         "Top level": SCENARIO,
         **{"object: " + name: kind.section for name, kind in KINDS.items()},
+        "object.natural_shape": NATURAL_SHAPE,
+        "object.point_masses": POINT_MASS,
         "object.pose": POSE,
         "agents": AGENT,
         "obstacles": _Excerpt(OBSTACLE_KINDS["polygon"].section, COMMON_KEYS),

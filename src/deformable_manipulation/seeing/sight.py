@@ -9,6 +9,10 @@ from deformable_manipulation.seeing.depth_camera import DepthCamera, camera_rota
 from deformable_manipulation.seeing.live_map import LiveMap, Seen
 from deformable_manipulation.seeing.seen_obstacles import live_obstacles
 
+_ADVICE = (
+    "change the camera's position, target, nearest or farthest, or the obstacle's least_points"
+)
+
 
 class Sight:
     """The scenario's camera and the live obstacles of its topic, in lock-step with the run.
@@ -27,6 +31,7 @@ class Sight:
             for index in live_obstacles(scenario)
             if is_of_camera(scenario, index)
         }
+        self._refusals: Dict[int, str] = {}  # why the newest image is not used, by indices
         if scenario.camera:
             self._times = CameraTimes(scenario)
             self._pose = scenario.camera.position, camera_rotation(scenario.camera)
@@ -36,11 +41,12 @@ class Sight:
         if self._camera is None or not self._maps or not self._times.is_due(cycle):
             return
         points = self._camera.image(cycle, state).reshape(-1, 3)
-        for each in self._maps.values():
+        for index, each in self._maps.items():
+            self._refusals.pop(index, None)
             try:
                 each.take(state.time, points, self._pose, state, None)
-            except ValueError:
-                pass  # it is lost when the time has come, which fault() tells
+            except ValueError as error:
+                self._refusals[index] = str(error)  # it is lost when the time has come
 
     def seen(self) -> Dict[int, Seen]:
         """What is known of the live obstacles, by their indices."""
@@ -48,8 +54,18 @@ class Sight:
 
     def fault(self, time: float) -> str:
         """Which obstacles are not known at a time [s], as a clause; empty: all are."""
-        faults = (lost(each, each.fault(time)) for each in self._maps.values())
+        faults = (self._lost(index, each.fault(time)) for index, each in self._maps.items())
         return ", ".join(filter(None, faults))
+
+    def refusal(self, index: int) -> str:
+        """Why the newest image tells nothing of an obstacle, and what to change; empty: it does."""
+        refusal = self._refusals.get(index)
+        return f"the newest image is not used: {refusal}; {_ADVICE}" if refusal else ""
+
+    def _lost(self, index: int, fault: str) -> str:
+        told = lost(self._maps[index], fault)
+        refusal = self.refusal(index)
+        return f"{told}, {refusal}" if told and refusal else told
 
 
 def lost(live_map: LiveMap, fault: str, origin: str = "") -> str:

@@ -25,7 +25,11 @@ def read_text(path, largest: int = LARGEST_FILE) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise TextFileError("is not UTF-8 text: {}".format(error)) from error
+        byte = (
+            len(data) - len(error.object) + error.start
+        )  # of which a mark at the start is left out
+        text = "is not UTF-8 text: its byte {} has the value {}"
+        raise TextFileError(text.format(byte + 1, data[byte])) from error
 
 
 def read_bytes(path, largest: int) -> bytes:

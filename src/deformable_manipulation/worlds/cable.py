@@ -9,7 +9,6 @@ from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.agents import AgentSpec
 from deformable_manipulation.worlds.cable_model import HOLD_STEPS, cable_xml, piece_name
 from deformable_manipulation.worlds.engine import load_engine, require_stable
-from deformable_manipulation.worlds.errors import WorldError
 
 
 class Cable:
@@ -19,24 +18,19 @@ class Cable:
     those of this package are. The viscosity of bending counts for twist, too.
 
     Args:
-        spec: the rod.
+        spec: the rod, which ``check_world`` of the scenario allows.
         agents: AgentSpecs that hold it.
         gravity: (3,) [m/s^2].
         rest: ``_pbd.Body`` of the same rod, whose shape it starts from.
         time_step: [s].
 
     Raises:
-        WorldError: MuJoCo is missing, or has no such rod.
+        WorldError: MuJoCo is missing.
     """
 
     def __init__(
         self, spec: RodSpec, agents: Sequence[AgentSpec], gravity: Vector, rest, time_step: float
     ):
-        if spec.drag_coefficient > 0.0 or spec.stretch != "zero":
-            raise WorldError(
-                "knowledge.world: mujoco has no air drag and no stretch of rods: remove "
-                "object.drag_coefficient and object.stretch, or use knowledge.world: own"
-            )
         self._engine = load_engine()
         xml = cable_xml(spec, agents, gravity, time_step)
         self._model = self._engine.MjModel.from_xml_string(xml)

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.knowledge import MUJOCO
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.simulation.factory import make_simulation
@@ -16,7 +17,7 @@ def true_scenario(scenario: Scenario) -> Scenario:
     knowledge = scenario.knowledge
     finer = knowledge.refinement
     truth = scenario.object.with_factors(knowledge.stiffness_factor, knowledge.density_factor)
-    if finer == 1:
+    if finer == 1 or not isinstance(truth, RodSpec):  # knowledge.for_object: fabrics have 1
         return dataclasses.replace(scenario, object=truth)
     agents = tuple(
         dataclasses.replace(agent, particle=finer * agent.particle + finer // 2)

@@ -8,7 +8,6 @@ from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.scenario.agents import AgentSpec
 from deformable_manipulation.worlds.engine import load_engine, require_stable
-from deformable_manipulation.worlds.errors import WorldError
 from deformable_manipulation.worlds.flex_model import flex_xml
 
 INTEGRATOR = "discrete"
@@ -20,25 +19,20 @@ class Sheet:
     Vertices are damped relative to the mean motion of the grips, at the rate ``object.damping``.
 
     Args:
-        spec: the fabric.
+        spec: the fabric, which ``check_world`` of the scenario allows.
         agents: AgentSpecs that hold it.
         gravity: (3,) [m/s^2].
         rest: ``_pbd.Body`` of the same fabric, whose shape it starts from.
         time_step: [s].
 
     Raises:
-        WorldError: MuJoCo is missing, or has no such fabric.
+        WorldError: MuJoCo is missing.
     """
 
     def __init__(
         self, spec: FabricSpec, agents: Sequence[AgentSpec], gravity: Vector, rest, time_step: float
     ):
         compliances = spec.stretching_compliance, spec.bending_compliance
-        if not all(compliances):
-            raise WorldError(
-                "knowledge.world: mujoco needs object.stretching_compliance and "
-                "object.bending_compliance above 0"
-            )
         self._engine = load_engine()
         particles = range(spec.particles)
         vertices = np.array([spec.particle_position(each) for each in particles])

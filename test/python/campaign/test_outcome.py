@@ -8,6 +8,7 @@ import pytest
 from synthetic_run import make_record, make_scenario
 
 from deformable_manipulation.campaign.outcome import assess, oscillation
+from deformable_manipulation.campaign.report import describe, is_acceptable, summarise
 from deformable_manipulation.campaign.runs import SeriesRecorder
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.obstacles.primitives import Sphere, SphereObstacle
@@ -144,3 +145,16 @@ def test_a_run_that_broke_down_says_why(run):
     outcome = assess(run.scenario, run.series, 3, "the state is not finite")
     assert not outcome.completed and outcome.index == 3
     assert outcome.problem == "the state is not finite"
+
+
+def test_an_assistant_that_waits_for_most_of_a_run(tmp_path):
+    run = Run(tmp_path)
+    status = run.series.column("assistant_1.status")
+    status[: len(status) // 4] = Status.WAITING
+    assert (run.assess().waiting, run.assess().waits) == (0.25, False)
+    status[:] = Status.WAITING
+    outcome = run.assess()
+    assert (outcome.waiting, outcome.waits) == (1.0, True)
+    summary = summarise([outcome], 0.001)
+    assert not is_acceptable(summary)
+    assert "waiting               1 runs" in describe(summary)

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 from deformable_manipulation.campaign.leader_paths import DIVES, NoPath, random_path
+from deformable_manipulation.campaign.reasons import Reasons
+from deformable_manipulation.campaign.terrain import random_obstacle, random_obstacles
 from deformable_manipulation.campaign.variation import NoVariation, Ranges, vary
 from deformable_manipulation.distance.factory import make_minimum_distance
+from deformable_manipulation.distance.minimum_distance import MinimumDistance
 from deformable_manipulation.motion.leader import LeaderPath
+from deformable_manipulation.obstacles.spec import placed
+from deformable_manipulation.reading.errors import Problem, ScenarioError
 from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.simulation.factory import make_simulation
 
@@ -23,6 +28,22 @@ def scenario(request):
 @pytest.fixture(scope="module")
 def varied(scenario):
     return [vary(scenario, RANGES, 7, index) for index in range(5)]
+
+
+def test_the_most_frequent_reasons_are_told_with_their_counts():
+    reasons = Reasons()
+    for number in range(60):
+        reasons.add(f"it is {0.1 * number:g} m long")
+    for _ in range(30):
+        reasons.add(
+            ScenarioError([Problem("agents.a.start", "is too far", "3"), Problem("b", "c")])
+        )
+    for text in ("once", "twice", "twice", "never"):
+        reasons.add(text)
+    assert str(reasons) == (
+        "60 times: it is 0 m long; 30 times: agents.a.start: 3 \u2014 is too far; b: c; "
+        "2 times: twice; 2 times: something else"
+    )
 
 
 def test_the_same_number_gives_the_same_variation(scenario, varied):
@@ -141,3 +162,30 @@ def test_paths_from_place_to_place_are_those_of_before():
     assert len(waypoints) == 7
     assert waypoints[2].time == pytest.approx(37.93272183)
     np.testing.assert_allclose(waypoints[2].position, (-0.05088955, 1.16805305, -0.92482283))
+
+
+def test_a_map_moves_with_what_it_is_of():
+    """Places of the machine are as deep in the map, wherever both are put."""
+    given = load_scenario("fabric_over_octomap").obstacles
+    moved = random_obstacles(given, np.random.default_rng(3))
+    assert all(each.translation != before.translation for each, before in zip(moved, given))
+    for before, after in zip(given[1:], moved[1:]):
+        depths = [
+            MinimumDistance([the_map], 0.0).compute(surface_points(part)).minimum
+            for the_map, part in ((given[0], before), (moved[0], after))
+        ]
+        np.testing.assert_allclose(*depths, atol=1e-6)
+        assert depths[0].max() < 1e-6
+
+
+def surface_points(obstacle):
+    """As copies (N, 2, 3) [m] of a line that is nowhere else."""
+    points = placed(obstacle, obstacle.drawing().triangles).reshape(-1, 3)
+    return np.repeat(points[:, None], 2, axis=1)
+
+
+def test_without_a_map_each_obstacle_is_changed_by_itself():
+    given = load_scenario("rope_over_depth_camera")
+    ground, seen = random_obstacles(given.obstacles, np.random.default_rng(3))
+    assert ground == random_obstacle(given.obstacles[0], np.random.default_rng(3))
+    assert seen == given.obstacles[1]

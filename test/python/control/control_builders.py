@@ -213,6 +213,7 @@ def collision_barrier(commanded, assistants, formulation, **settings):
         "margin": 0.0,
         "offset": 0.05,
         "speed_margin": 0.0,
+        "snap_margin": 0.0,
         **settings,
     }
     members = team(commanded, assistants, len(assistants) + 1, formulation)

@@ -43,7 +43,7 @@ def setting(assistants, seed):
     return body, obstacle, positions, velocities, differences.features(observation)
 
 
-def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
+def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, snap_margin=0.0, **settings):
     everybody = list(range(1, assistants + 1))
     return [
         build.collision_barrier(
@@ -53,6 +53,7 @@ def barriers(assistants, band=BAND, margin=0.0, speed_margin=0.0, **settings):
             band=band,
             margin=margin,
             speed_margin=speed_margin,
+            snap_margin=snap_margin,
         )
         for i in everybody
     ]
@@ -163,20 +164,26 @@ def test_a_feature_that_nobody_moves_is_shared_equally():
         np.testing.assert_allclose(rows.bounds, 0.5 * (0.1 + 5.0 * OFFSET))
 
 
-def one_feature(distances, leader=(0.0, 0.0, 0.0)):
+def one_feature(distances, leader=(0.0, 0.0, 0.0), parting=0.0):
     """Level features above ground that assistant 1 raises half as fast as it rises, and a state."""
     count = len(distances)
     normal = np.tile((0.0, 0.0, 1.0), (count, 1))
     gradients = 0.5 * np.repeat(normal[:, None], 2, axis=1)
-    return Features(np.array(distances), normal, 0.0 * normal, gradients), state_of(
-        np.array([leader, [0.0, 0.0, 0.0]])
-    )
+    features = Features(np.array(distances), normal, 0.0 * normal, gradients, parting)
+    return features, state_of(np.array([leader, [0.0, 0.0, 0.0]]))
 
 
 def test_rows_keep_their_margins_above_the_offset():
     features, state = one_feature([OFFSET + 0.01], leader=(0.1, 0.0, 0.0))
     rows = barriers(1, margin=0.002, speed_margin=0.03)[0].rows(features, state)
     np.testing.assert_allclose(rows.bounds, -(0.01 - 0.002 - 0.003))
+
+
+@pytest.mark.parametrize("parting, more", [(0.0, 0.0), (0.01, 0.003), (0.02, 0.006), (0.1, 0.006)])
+def test_rows_keep_more_where_the_copies_part(parting, more):
+    features, state = one_feature([OFFSET + 0.01], parting=parting)
+    rows = barriers(1, margin=0.002, snap_margin=0.006)[0].rows(features, state)
+    np.testing.assert_allclose(rows.bounds, -(0.01 - 0.002 - more))
 
 
 def test_a_softer_row_asks_earlier():

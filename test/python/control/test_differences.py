@@ -63,6 +63,30 @@ def test_a_feature_between_two_points_takes_its_material_point(setting):
     np.testing.assert_allclose(features.gradients[0], np.einsum("i,aij->aj", obstacle.normal, rate))
 
 
+def test_copies_that_follow_do_not_part(setting):
+    body, obstacle, positions = setting
+    observation = build.observe(0.0, positions, body, obstacle, build.axis_copies(AGENTS))
+    np.testing.assert_allclose(taken_in(observation).features(observation).parting, 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("snapped", [[5], [0]])
+def test_a_copy_that_has_snapped_parts_from_the_others(setting, snapped):
+    """A copy has the new shape already, or the object has and all copies are left behind."""
+    body, obstacle, positions = setting
+    directions = BOTH_SIDES
+    displaced = np.repeat([-1, 1, 2], [1, len(directions), len(directions)])
+    displacements = np.concatenate((np.zeros((1, 3)), directions, directions))
+    observation = build.observe(0.0, positions, body, obstacle, (displaced, displacements))
+    snap = 0.02
+    points = observation.points.copy()
+    points[snapped] -= snap * obstacle.normal
+    moved = dataclasses.replace(observation, points=points)
+    # One side of a pair: half of it counts as the slope. All of them: it is left over in full.
+    left_over = {5: 0.5 * snap, 0: snap}[snapped[0]]
+    parting = taken_in(moved).features(moved).parting
+    np.testing.assert_allclose(parting, left_over, rtol=1e-6)
+
+
 def test_minimum_agrees_where_the_nearest_feature_stays(setting):
     body, obstacle, positions = setting
     copies = build.axis_copies(AGENTS, size=1e-4)

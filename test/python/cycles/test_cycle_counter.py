@@ -44,3 +44,9 @@ def test_the_summary_has_all_counts(counter):
     counter.count(state_message(cycle=0), age=1.0)
     counter.count(state_message(cycle=4))
     assert counter.summary == "Overruns: 1 of 2 cycles, 3 states skipped."
+
+
+def test_one_skipped_state_is_told_in_the_singular(counter):
+    counter.count(state_message(cycle=0))
+    counter.count(state_message(cycle=2))
+    assert counter.summary.endswith("1 state skipped.")

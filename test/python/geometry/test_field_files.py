@@ -39,7 +39,7 @@ def test_what_is_unknown_counts_as_the_scenario_says(is_free, value, read):
 @pytest.mark.parametrize(
     "arrays, told",
     [
-        ({"distances": GRID[0]}, "distances have the shape .3, 4."),
+        ({"distances": GRID[0]}, "size of distances is 3 x 4; it must"),
         ({"distances": GRID[:1]}, "each 2 or more"),
         ({"distances": np.full((2, 2, 2), "a")}, "distances holds no numbers"),
         ({"distances": np.full((2, 2, 2), np.nan)}, "none of its distances is a number"),

@@ -11,11 +11,18 @@ from rope_recordings import OBJECT, ROPE, SUBSTEPS, record
 
 from deformable_manipulation.commands.identify import FITTED, main
 from deformable_manipulation.commands.replay import main as replay
-from deformable_manipulation.identification.identify import identify
-from deformable_manipulation.identification.least_squares import fit
-from deformable_manipulation.identification.parameters import AIM, MATERIAL, Parameters
+from deformable_manipulation.identification.findings import object_section, statements, values
+from deformable_manipulation.identification.identify import Identification, identify
+from deformable_manipulation.identification.least_squares import Fit, fit
+from deformable_manipulation.identification.parameters import (
+    AIM,
+    CURVATURE,
+    MATERIAL,
+    Parameters,
+)
 from deformable_manipulation.identification.problem import Problem, windows_of
 from deformable_manipulation.identification.workers import worker_map
+from deformable_manipulation.objects.natural_shape import NaturalShape
 from deformable_manipulation.replaying.measured_shapes import (
     MeasuredShapes,
     MeasuredShapesError,
@@ -41,6 +48,16 @@ def parameters_of(*material, grips=0):
 def test_windows_too_short_for_three_shapes_are_an_error(recording):
     with pytest.raises(MeasuredShapesError, match="no window of 0.001 s has three shapes"):
         windows_of([recording], parameters_of("young_modulus"), OPTIONS, 0.001)
+
+
+def test_time_in_which_nothing_was_measured_is_no_window(recording):
+    """Of a pause of a million windows, none is looked at."""
+    time = np.concatenate((recording.time, recording.time + 1e6))
+    points = np.concatenate((recording.points, recording.points))
+    paused = MeasuredShapes(time, recording.arc_lengths, points)
+    windows = windows_of([paused], parameters_of("young_modulus"), OPTIONS, 0.5)
+    assert [round(each.replay.shapes.time[0], 2) for each in windows[:3]] == [0.0, 0.5, 1.0]
+    assert 4 <= len(windows) <= 6
 
 
 def test_stiffness_and_viscosity_are_found_from_afar(recording):
@@ -103,6 +120,41 @@ def test_what_the_object_lacks_is_found():
     assert math.exp(found.vector[0]) == pytest.approx(20.0, rel=0.02)
 
 
+class TestCurvature:
+    """Between two clamps a uniform curvature in the plane of the rope changes nothing."""
+
+    options = dataclasses.replace(OPTIONS, held=((0, 1), (8,)))  # the second grip pins it
+
+    def found(self, recording, spec):
+        window = windows_of([recording], Parameters(ROPE, (), 0), self.options, 1.49)[0]
+        points = window.replay.run(spec)
+        points[:, [0, 1, 8]] = recording.points[: len(points), [0, 1, 8]]  # grips move as before
+        shapes = MeasuredShapes(window.replay.shapes.time, recording.arc_lengths, points)
+        parameters = Parameters(ROPE, (), 0, curved=True)
+        return identify(parameters, windows_of([shapes], parameters, self.options, 1.49), 0)
+
+    def test_is_found(self, recording):
+        curvature = (0.5, -0.3)
+        coiled = dataclasses.replace(ROPE, natural_shape=NaturalShape(curvature=curvature))
+        found = self.found(recording, coiled)
+        np.testing.assert_allclose(found.fit.vector, curvature, atol=0.05)
+        assert found.straight > 1.0
+        assert [row[0] for row in values(found)] == [f"natural curvature about {a}" for a in "yz"]
+        assert any("keep it" in sentence for sentence in statements(found))
+        section = yaml.safe_load(object_section(found))["object"]
+        assert section["natural_shape"]["curvature"] == pytest.approx(found.fit.vector)
+
+    def test_of_a_straight_rope_is_none(self, recording):
+        found = self.found(recording, ROPE)
+        np.testing.assert_allclose(found.fit.vector, 0.0, atol=0.02)
+
+
+def test_a_curvature_that_does_not_matter_is_said_to_be_none(recording):
+    parameters = Parameters(ROPE, (), 0, curved=True)
+    found = identify(parameters, windows_of([recording], parameters, OPTIONS, 1.49), 0)
+    assert any("as good as straight" in sentence for sentence in statements(found))
+
+
 def test_processes_find_the_same(recording):
     parameters = parameters_of("young_modulus")
     windows = windows_of([recording], parameters, OPTIONS, 0.49)
@@ -119,8 +171,26 @@ def test_a_window_that_is_left_over_is_not_used(recording):
     assert len(windows_of([recording], parameters, OPTIONS, 10.0)) == 1
 
 
+def test_a_value_at_the_bound_of_the_search_is_no_result():
+    parameters = parameters_of("young_modulus", "drag_coefficient", grips=1)
+    vector = parameters.bounded(np.array((math.log(1e7), math.log(1e6), 0.1, -2.0)))
+    assert parameters.at_bounds(vector).tolist() == [False, True, False, True]
+    found = Identification(
+        parameters, Fit(vector, np.array((0.01, 0.2, 0.02, 0.02)), True), {}, (0.0, 0.0), None
+    )
+    assert [row[1:] for row in values(found)] == [
+        ["1e+07 Pa", "+- 1.0 %"],
+        ["100", "at the bound of the search"],
+        ["5.73 deg", "+- 1.15 deg"],
+        ["-45.00 deg", "at the bound of the search"],
+    ]
+    text = "\n".join(statements(found))
+    assert "The value of drag_coefficient, 100, is the bound of the search and no result" in text
+    assert "#   drag_coefficient: 100 at the bound of the search" in object_section(found)
+
+
 def test_the_command_names_what_can_be_fitted():
-    assert FITTED == (*MATERIAL, AIM)
+    assert FITTED == (*MATERIAL, CURVATURE, AIM)
 
 
 class TestCommand:

@@ -3,7 +3,12 @@ import itertools
 import numpy as np
 import pytest
 
-from deformable_manipulation.pictures.picture import PictureAtRest, save_png, shows_scene
+from deformable_manipulation.pictures.picture import (
+    PictureAtRest,
+    same_looks_after,
+    save_png,
+    shows_scene,
+)
 
 BACKGROUND = (250, 250, 250)
 
@@ -81,6 +86,11 @@ def test_a_picture_is_taken_once_it_is_at_rest():
     count = next(i for i in range(1, 100) if look.again())
     assert count > len(moving) + 20
     np.testing.assert_array_equal(look.picture, scene())
+
+
+def test_a_program_that_started_slowly_is_watched_for_longer():
+    assert same_looks_after(0.5) == same_looks_after(2.0) == 5
+    assert same_looks_after(20.0) == 40
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,14 @@ from synthetic_run import OFFSET, POINTS, RATE, make_decision, make_record, make
 
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.objects.fabric import FabricSpec
-from deformable_manipulation.recording import CycleTimings, RecordingError, RunRecorder
+from deformable_manipulation.recording import (
+    CycleTimings,
+    RecordingError,
+    RunRecorder,
+    read_run,
+)
 from deformable_manipulation.recording import run_recorder as run_recorder_module
+from deformable_manipulation.recording.summary import describe, describe_recorded
 from deformable_manipulation.scenario import scenario_from_mapping
 
 
@@ -182,6 +188,7 @@ def test_summary_numbers(scenario, tmp_path):
         "shape_valid": False,
         "qp_relaxed": 2,
         "qp_failed": 1,
+        "waiting": {"assistant_1": {"time": 0.0, "longest": 0.0, "always": False, "reason": ""}},
     }
 
 
@@ -199,6 +206,42 @@ def test_the_error_of_a_waiting_cycle_is_left_out(scenario, tmp_path):
     assert summary["tracking_error"]["assistant_1"]["final"] == pytest.approx(
         np.linalg.norm(make_decision(2).error)
     )
+
+
+def record_waiting(scenario, folder, waiting):
+    """Runs of cycles, each with why the assistant waits in them, or an empty text."""
+    recorder, cycle = RunRecorder(scenario, folder), 0
+    for cycles, reason in waiting:
+        for _ in range(cycles):
+            status = Status.WAITING if reason else Status.NOMINAL
+            decision = dataclasses.replace(make_decision(cycle, status=status), reason=reason)
+            recorder.record(make_record(scenario, cycle, decisions={"assistant_1": decision}))
+            cycle += 1
+    return recorder.finish(1.0, True)
+
+
+def test_waiting_is_told_with_the_reason_of_its_longest_time(scenario, tmp_path):
+    waiting = [(30, "no image"), (20, ""), (50, "no state"), (10, ""), (5, "no leader")]
+    summary = record_waiting(scenario, tmp_path / "run", waiting)
+    wait = {"time": 0.85, "longest": 0.5, "always": False, "reason": "no state"}
+    assert summary["waiting"] == {"assistant_1": wait}
+    line = "WARNING: assistant_1 waited for 0.8 s in all, for up to 0.5 s at once: no state"
+    assert line in describe(summary).splitlines()
+
+
+def test_an_assistant_that_never_moved_is_told(scenario, tmp_path):
+    text = describe(record_waiting(scenario, tmp_path / "run", [(200, "no image")]))
+    line = (
+        "WARNING: assistant_1 never followed the leader, it waited for all of the 2.0 s: no image"
+    )
+    assert line in text.splitlines()
+    recorded = describe_recorded(read_run(tmp_path / "run"))
+    assert line.replace(": no image", "") in recorded.splitlines()
+
+
+def test_waiting_for_the_first_state_is_not_worth_a_word(scenario, tmp_path):
+    text = describe(record_waiting(scenario, tmp_path / "run", [(2, "no state"), (98, "")]))
+    assert "waited" not in text
 
 
 def test_summary_is_strict_json_without_obstacle_or_with_unknown_numbers(scenario, tmp_path):

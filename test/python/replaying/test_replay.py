@@ -1,5 +1,6 @@
 """A recording of the package's own rope is replayed by the same rope, and not by another."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from rope_recordings import OBJECT, ROPE, SUBSTEPS, record, stiffer
 
 from deformable_manipulation.commands.replay import main
+from deformable_manipulation.replaying import replay as replay_module
 from deformable_manipulation.replaying.difference import calm_frames, difference
 from deformable_manipulation.replaying.measured_shapes import (
     MeasuredShapes,
@@ -50,6 +52,42 @@ def test_a_recording_may_have_gaps_in_time(shapes):
     assert error_of(ROPE, some, start="settled")["mean_distance"] < 2e-3
 
 
+def paused(shapes, pause):
+    """A recording whose second half was measured after a pause [s]."""
+    time = shapes.time + np.where(np.arange(len(shapes.time)) < 75, 0.0, pause)
+    return MeasuredShapes(time, shapes.arc_lengths, shapes.points)
+
+
+def test_a_long_gap_is_replayed_in_short_steps(shapes):
+    calls = []
+
+    class Body:
+        def __init__(self, body):
+            self._body = body
+
+        def __getattr__(self, name):
+            return getattr(self._body, name)
+
+        def step(self, time_step, substeps):
+            calls.append((time_step, substeps))
+            self._body.step(time_step, substeps)
+
+    with pytest.MonkeyPatch.context() as patch:
+        make = replay_module.make_body
+        patch.setattr(replay_module, "make_body", lambda *given: Body(make(*given)))
+        assert np.isfinite(error_of(ROPE, paused(shapes, 2.99))["mean_distance"])
+    steps, substeps = zip(*calls)
+    assert sum(steps) == pytest.approx(shapes.time[-1] + 2.99)
+    assert max(steps) == pytest.approx(0.1)
+    assert max(substeps) == 10 * SUBSTEPS
+
+
+def test_a_gap_that_would_take_for_ever_is_refused(shapes):
+    mistake = r"nothing was measured from 0.74 to 1e\+06 s; a gap is at most 60 s long: cut"
+    with pytest.raises(MeasuredShapesError, match=mistake):
+        Replay(ROPE, paused(shapes, 1e6), ReplayOptions())
+
+
 def test_a_grip_may_hold_the_object_at_an_angle(shapes):
     replay = Replay(ROPE, shapes, ReplayOptions(start="settled", substeps=SUBSTEPS))
     straight = replay.run(ROPE)
@@ -76,12 +114,37 @@ def test_rest_is_told_from_motion(shapes):
     "options, mistake",
     [
         ({"held": ((0, 9),)}, "point 9 cannot be held: there are points 0 to 8"),
-        ({"held": ((0, 1), (0,))}, "two grippers hold segment 0"),
+        ({"held": ((0, 1), (0,))}, "point 0 is held by grippers 1 and 2 .* one gripper; leave it"),
+        ({"held": ((0, 1, 2), (2, 3), (7, 8))}, "point 2 is held by grippers 1 and 2"),
     ],
 )
 def test_wrong_grips_are_refused(shapes, options, mistake):
     with pytest.raises(MeasuredShapesError, match=mistake):
         Replay(ROPE, shapes, ReplayOptions(**options))
+
+
+def test_two_points_make_a_straight_rope(shapes):
+    few = MeasuredShapes(shapes.time, shapes.arc_lengths[[0, 4]], shapes.points[:, [0, 4]])
+    replay = Replay(ROPE, few, ReplayOptions(held=((0,), (1,))))
+    start = replay._start[0]
+    assert np.linalg.norm(start[-1] - few.points[0, 1]) > 0.3  # it goes on beyond the last point
+    assert np.linalg.norm(np.diff(start, 2, axis=0), axis=1).max() < 1e-12
+    assert np.isfinite(replay.run(ROPE)).all()
+
+
+def test_points_at_the_same_place_are_refused(shapes):
+    for frame, mistake in ((0, "points 7 and 8 are at .* first shape"), (60, "at 0.6 s")):
+        points = shapes.points.copy()
+        points[frame, 8] = points[frame, 7]
+        same = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+        with pytest.raises(MeasuredShapesError, match=mistake):
+            Replay(ROPE, same, ReplayOptions())
+
+
+def test_an_object_too_coarse_for_its_grips_is_refused(shapes):
+    coarse = dataclasses.replace(ROPE, segments=2)
+    with pytest.raises(MeasuredShapesError, match="two grippers hold segment 0: use more segments"):
+        Replay(coarse, shapes, ReplayOptions(held=((0, 1), (2, 3))))
 
 
 class TestCommand:

@@ -19,7 +19,7 @@ def test_one_command_has_no_rate():
 def test_what_nodes_say_of_overruns_is_found_among_the_rest_of_the_log():
     log = (
         "\x1b[0m/simulator: Overruns: 1 of 300 cycles.\x1b[0m\n"
-        "/assistants: Overruns: 2 of 7 cycles, 1 states skipped.\n"
+        "/assistants: Overruns: 2 of 7 cycles, 1 state skipped.\n"
         "/assistants: Waits, at rest or slowing down to it: no state for 0.3 s.\n"
         "[leader-3] killing on exit\n"
         "/assistants: Overruns: 4 of 298 cycles, 3 states skipped.\n"

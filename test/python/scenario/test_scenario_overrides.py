@@ -74,6 +74,7 @@ def test_aliases_in_the_file_are_not_changed_together(mapping, tmp_path):
         ("agents.helpr.particle", "1", "there is no agent 'helpr'; did you mean 'helper'?"),
         ("controller.rate.x", "1", "controller.rate is 50.0, which has no keys"),
         ("controller.gain", "[1", "not valid YAML"),
+        ("controller.gain", "{[1]: 2}", "a list or a section stands where a key is needed"),
         ("controller.gain", "fast", "controller.gain: 'fast' \u2014 must be a number > 0"),
         ("", "1", "is not a key"),
     ],

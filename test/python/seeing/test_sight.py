@@ -10,6 +10,7 @@ from deformable_manipulation.control.status import Status
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.obstacles.spec import placed
 from deformable_manipulation.running.closed_loop import ClosedLoop
+from deformable_manipulation.running.inspection import inspect_scenario
 from deformable_manipulation.seeing.camera_times import CameraTimes
 from deformable_manipulation.seeing.carried_state import CarriedState
 from deformable_manipulation.seeing.depth_camera import DepthCamera, camera_axes, camera_rotation
@@ -135,7 +136,11 @@ def test_a_camera_that_sees_nothing_stops_the_assistant():
     loop = ClosedLoop(seen_block(camera__nearest=5.0, camera__farthest=6.0))
     decisions = [loop.step().decisions["assistant_1"] for _ in range(20)]
     assert {each.status for each in decisions} == {Status.WAITING}
-    assert "obstacle 'seen' is lost: nothing has come yet on camera/points" in decisions[-1].text
+    reason = decisions[-1].reason
+    assert reason in decisions[-1].text
+    assert "obstacle 'seen' is lost: nothing has come yet on camera/points" in reason
+    assert "it has 0 points of which something can be made; 100 at least are needed" in reason
+    assert "change the camera's position, target, nearest or farthest" in reason
 
 
 def test_the_drawn_obstacle_is_the_one_that_is_seen():
@@ -143,3 +148,26 @@ def test_the_drawn_obstacle_is_the_one_that_is_seen():
     block = seen_block().obstacles[0]
     corners = placed(block, block.drawing().triangles).reshape(-1, 3)
     assert on_box(corners, block) == pytest.approx(0.0, abs=1e-9)
+
+
+def h_at_the_start(scenario):
+    facts = inspect_scenario(scenario).facts
+    (line,) = (each for each in facts if each.startswith("barrier collision"))
+    return line.split("h at the start: ")[1]
+
+
+def test_a_check_tells_h_as_the_assistant_knows_it():
+    """Of the block, which is 0.95 m below the rope, the camera sees points; or nobody tells it."""
+    real = inspect_scenario(seen_block()).facts
+    distance = float(next(each for each in real if "from the obstacles" in each).split()[-2])
+    seen = float(h_at_the_start(seen_block()).split()[-2])
+    assert seen == pytest.approx(distance - 0.05, abs=0.05) and seen != distance - 0.05
+    assert h_at_the_start(seen_block(obstacles__1__live_cloud="elsewhere")) == (
+        "nothing to keep from"
+    )
+
+
+def test_a_check_warns_of_a_camera_that_sees_nothing():
+    (warning,) = inspect_scenario(seen_block(camera__nearest=5.0, camera__farthest=6.0)).warnings
+    assert warning.startswith("obstacle seen: the newest image is not used: it has 0 points")
+    assert warning.endswith("The assistants stand still until it is seen")

@@ -61,6 +61,8 @@ def test_names_of_no_file(tmp_path, name, expected):
 
 def test_other_encodings(tmp_path):
     path = tmp_path / "text"
-    path.write_bytes(b"\xff")
-    with pytest.raises(TextFileError, match="not UTF-8"):
-        read_text(path)
+    for mark in (b"", b"\xef\xbb\xbf"):
+        path.write_bytes(mark + b"ab\xff")
+        text = f"is not UTF-8 text: its byte {len(mark) + 3} has the value 255"
+        with pytest.raises(TextFileError, match=text):
+            read_text(path)

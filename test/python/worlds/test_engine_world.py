@@ -1,5 +1,6 @@
 """Objects that MuJoCo simulates, beside theory and as the true object of a run."""
 
+import argparse
 import json
 import sys
 from pathlib import Path
@@ -8,7 +9,8 @@ import numpy as np
 import pytest
 
 from deformable_manipulation.campaign.variation import Ranges, vary
-from deformable_manipulation.commands import run_scenario
+from deformable_manipulation.commands import check_scenario, run_campaign, run_scenario
+from deformable_manipulation.commands.arguments import scenario_overrides
 from deformable_manipulation.control.status import Status
 from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.recording.frame_reader import read_frames
@@ -25,7 +27,6 @@ from deformable_manipulation.validation.references.elastica import (
 )
 from deformable_manipulation.worlds.engine import load_engine
 from deformable_manipulation.worlds.engine_world import EngineWorld
-from deformable_manipulation.worlds.errors import WorldError
 from deformable_manipulation.worlds.factory import make_world, true_scenario
 from deformable_manipulation.worlds.flex_model import flex_xml
 
@@ -181,9 +182,21 @@ def test_a_fabric_is_not_refined():
         scenario(SMALL_FABRIC, **{"knowledge.refinement": 3})
 
 
-def test_a_rod_that_the_engine_does_not_have():
-    with pytest.raises(WorldError, match="object.drag_coefficient"):
-        ClosedLoop(scenario(**{"object.drag_coefficient": 1.2}))
+@pytest.mark.parametrize(
+    "name, sets, expected",
+    [
+        (SHORT_ROPE, {"object.drag_coefficient": 1.2}, "object.drag_coefficient: 1.2 .* must be 0"),
+        (SHORT_ROPE, {"object.stretch": "from_moduli"}, "object.stretch: .* must be zero"),
+        (SHORT_ROPE, {"object.natural_shape": {"twist": 0.5}}, "object.natural_shape: .* straight"),
+        (SHORT_ROPE, {"object.point_masses": [{"at": 0.5, "mass": 0.1}]}, "object.point_masses: "),
+        ("rope_one_assistant", {"knowledge.refinement": 99}, "refinement: 99 .* makes 2772 pieces"),
+        (SMALL_FABRIC, {"object.bending_compliance": 0}, "bending_compliance: 0.0 .* above 0"),
+        ("fabric_three_assistants", {"object.resolution": 25}, "object: has 2601 vertices"),
+    ],
+)
+def test_objects_that_the_engine_does_not_have(name, sets, expected):
+    with pytest.raises(ScenarioError, match=expected):
+        scenario(name, **sets)
 
 
 def test_without_the_engine_it_is_said_how_to_get_it(monkeypatch, tmp_path, capsys):
@@ -192,6 +205,31 @@ def test_without_the_engine_it_is_said_how_to_get_it(monkeypatch, tmp_path, caps
     assert run_scenario.main([str(SHORT_ROPE), "--world", "mujoco", *options]) == 1
     assert "pip install" in capsys.readouterr().err
     assert not (tmp_path / "run").exists()
+
+
+def test_a_check_tells_what_a_run_would(monkeypatch, capsys):
+    options = [str(SHORT_ROPE), "--world", "mujoco"]
+    assert check_scenario.main(options) == 0
+    assert "the true object, in the world mujoco, has " in capsys.readouterr().out
+    assert check_scenario.main([*options, "--set", "object.drag_coefficient=1"]) == 1
+    assert "must be 0 in the world mujoco" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    assert check_scenario.main(options) == 1
+    assert "pip install" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [check_scenario, run_scenario, run_campaign])
+def test_two_worlds_are_a_mistake(command, capsys):
+    options = ["--set", "knowledge.world=own", "--world", "mujoco"]
+    assert command.main([str(SHORT_ROPE), *options]) == 1
+    error = capsys.readouterr().err
+    assert "knowledge.world: 'own' \u2014 cannot be set beside --world mujoco; remove one" in error
+
+
+def test_the_world_is_added_to_other_knowledge():
+    given = argparse.Namespace(set=[("knowledge", "{pose_noise: 0.001}")], world="mujoco")
+    knowledge = load_scenario(SHORT_ROPE, scenario_overrides(given)).knowledge
+    assert (knowledge.world, knowledge.pose_noise) == ("mujoco", 0.001)
 
 
 def shape_error(**sets):
@@ -228,6 +266,6 @@ def test_assistants_stop_where_the_model_is_not_that_of_the_object():
     series = TimeSeries.of(stopping)
     for record in records:
         series.append(record)
-    summary = summarise(stopping, series, 1.0, False, True, "stable")
+    summary = summarise(stopping, series, 1.0, False, True, "stable", {})
     assert summary["max_correction"] > 0.002
     assert summary["disagreeing"] == sum(record.model.disagrees for record in records) > 50

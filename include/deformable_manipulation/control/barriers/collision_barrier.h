@@ -10,6 +10,7 @@ struct CollisionParameters {
   double offset;                       //!< [m] distance to keep
   double margin;                       //!< [m] beyond the offset, that the rows keep
   double speed_margin;                 //!< [s] more of it per m/s of the leader's speed
+  double snap_margin;                  //!< [m] up to this much more while the copies part
   double band;                         //!< [m] features farther than the nearest by more have no row
   PiecewiseLinearClassK alpha;         //!< of the limit
   PiecewiseLinearClassK anticipation;  //!< of the softer row beside each

@@ -17,7 +17,7 @@ BARRIER = load_barrier(
     "Keeps a rope or rod from being bent too sharply anywhere.",
     rank=50,
     margin="bending margin",
-    missed="bent too sharply",
+    missed="the object is bent too sharply",
     derive=_derive,
     check=demand_rod("bending", "a fabric folds, and has no bend radius"),
     unit="1/m",

@@ -57,6 +57,16 @@ class CollisionSpec:
         live=Live(("collision_speed_margin",), 0.0, 10.0),
         native=True,
     )
+    snap_margin: float = parameter(
+        Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
+        "And up to this much more where the perturbed copies part from one another, as when a "
+        "fold is about to snap. Raise it for limp fabrics.",
+        default=0.0,
+        default_text="`0`; for fabrics `0.01`",
+        paper=0.0,
+        live=Live(("collision_snap_margin",), 0.0, 0.2),
+        native=True,
+    )
     band: float = parameter(
         Number("m", at_least=0.0, at_most=LARGEST_COORDINATE),
         "Features up to this much farther than the nearest get a row of their own in the QP. "
@@ -94,7 +104,7 @@ BARRIER = BarrierKind(
     rank=10,
     meaning="Keeps the object off the obstacles.",
     margin="distance minus offset",
-    missed="too near an obstacle",
+    missed="the object is too near an obstacle",
     default=NOTHING,
-    of_object=("margin", "speed_margin"),
+    of_object=("margin", "speed_margin", "snap_margin"),
 )

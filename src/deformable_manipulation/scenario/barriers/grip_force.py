@@ -18,7 +18,7 @@ BARRIER = load_barrier(
     "Keeps the force at each agent's grip below what wrist and grip bear.",
     rank=52,
     margin="grip force margin",
-    missed="too much force at a grip",
+    missed="the force at a grip is too large",
     derive=orientations_of_grips,
     unit="N",
     needs_wrenches=True,

@@ -19,7 +19,7 @@ BARRIER = load_barrier(
     "Keeps the torque at each agent's grip below what wrist and grip bear.",
     rank=54,
     margin="grip torque margin",
-    missed="too much torque at a grip",
+    missed="the torque at a grip is too large",
     derive=orientations_of_grips,
     check=demand_rod("grip_torque", "the vertices of a fabric exert no torque"),
     unit="N m",

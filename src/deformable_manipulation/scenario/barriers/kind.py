@@ -27,7 +27,7 @@ class BarrierKind:
         rank: its place among the barriers and in the default priority; the lowest yields last.
         meaning: of the section, for docs/parameters.md.
         margin: what h is, in words, for plots and summaries: "overstretch margin".
-        missed: what is the case where h is negative, for diagnostics: "overstretched".
+        missed: what is the case where h is negative, as a clause: "the object is overstretched".
         default: its section where the scenario has none: None leaves the barrier out; ``NOTHING``
             of :mod:`~..parameter` demands the section.
         derive: what the C++ core needs beyond the parameters: called with the scenario; gives a

@@ -52,7 +52,7 @@ BARRIER = BarrierKind(
     rank=30,
     meaning="Keeps the agents from overstretching the object.",
     margin="overstretch margin",
-    missed="overstretched",
+    missed="the object is overstretched",
     default=OverstretchSpec(),
     derive=_derive,
 )

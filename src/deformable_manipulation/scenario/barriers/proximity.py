@@ -46,7 +46,7 @@ BARRIER = BarrierKind(
     rank=40,
     meaning="Keeps the agents apart.",
     margin="proximity margin",
-    missed="agents too near each other",
+    missed="agents are too near each other",
     default=ProximitySpec(),
     derive=_derive,
 )

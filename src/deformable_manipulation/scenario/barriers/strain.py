@@ -22,7 +22,7 @@ BARRIER = load_barrier(
     "far.",
     rank=58,
     margin="strain margin",
-    missed="strained too far",
+    missed="the object is strained too far",
     derive=_derive,
     unit="1",
 )

@@ -13,7 +13,7 @@ BARRIER = load_barrier(
     "Keeps the tension anywhere in a rope or rod below what it bears.",
     rank=56,
     margin="tension margin",
-    missed="under too much tension",
+    missed="the tension of the object is too large",
     derive=weights_between_grips,
     check=demand_rod("tension", "the tension of a fabric is its strain, see controller.strain"),
     unit="N",

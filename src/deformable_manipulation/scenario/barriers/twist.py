@@ -19,7 +19,7 @@ BARRIER = load_barrier(
     "Keeps a rope or rod from being twisted too much anywhere.",
     rank=51,
     margin="twist margin",
-    missed="twisted too much",
+    missed="the object is twisted too much",
     derive=_derive,
     check=demand_rod("twist", "a fabric has no twist"),
     unit="rad/m",

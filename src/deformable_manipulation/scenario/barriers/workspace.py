@@ -146,7 +146,7 @@ BARRIER = BarrierKind(
     meaning="Keeps each assistant's held point within a box, on one side of planes and out of "
     "spheres: a table, walls, a cabinet. See [workspace](barriers/workspace.md).",
     margin="workspace margin",
-    missed="outside the workspace",
+    missed="a grip is outside the workspace",
     default=None,
     check=_check,
 )

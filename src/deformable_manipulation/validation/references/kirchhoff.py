@@ -3,18 +3,20 @@
 With the position r, the orientation q (quaternion that turns x into the tangent t), internal force
 n and moment m of the part ahead on the part behind, weight w per length against the z axis:
 
-    r' = t,  q' = (u, 0) q / 2,  n' = w e_z,  m' = n x t,  u = m / EI + (1/GJ - 1/EI) (t . m) t.
+    r' = t,  q' = (u, 0) q / 2,  n' = w e_z,  m' = n x t,
+    u = R u0 + m / EI + (1/GJ - 1/EI) (t . m) t.
 
-All vectors are in the fixed frame; the rod neither stretches nor shears; undeformed it is straight.
+All vectors are in the fixed frame but u0, the twist and the curvatures of the rod without load,
+which the rotation R of q turns there; the rod neither stretches nor shears.
 See S. S. Antman: Nonlinear Problems of Elasticity, chapter 8. Solved in units of the length and of
 EI / length^2 by collocation (scipy.integrate.solve_bvp).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Sequence
 
 import numpy as np
-from scipy.integrate import solve_bvp
+from scipy.integrate import solve_bvp, solve_ivp
 from scipy.spatial.transform import Rotation
 
 TOLERANCE = 1e-7
@@ -61,12 +63,16 @@ class KirchhoffRod:
 
 @dataclass(frozen=True)
 class KirchhoffProblem:
-    """A rod of length [m], E I and G J [N m^2], weight per length [N/m]."""
+    """A rod of length [m], E I and G J [N m^2], weight per length [N/m].
+
+    ``natural``: twist [rad/m] and curvatures about the y and z axis of its frames [1/m].
+    """
 
     length: float
     bending_stiffness: float
     torsion_stiffness: float
     weight: float = 0.0
+    natural: Sequence[float] = (0.0, 0.0, 0.0)
 
     def follow(self, path: Sequence[Ends], nodes: np.ndarray, guess: np.ndarray) -> KirchhoffRod:
         """Solve for ends along a path, each from the solution before; returns the last.
@@ -79,6 +85,36 @@ class KirchhoffProblem:
             nodes, guess = bvp.x, bvp.y
         bvp = self._solve(ends, nodes, guess, TOLERANCE)
         return KirchhoffRod(self.length, self.bending_stiffness, bvp)
+
+    def hang_freely(self, steps: int) -> KirchhoffRod:
+        """The rod clamped at its first end alone, its weight put on in a number of steps."""
+        unloaded = replace(self, weight=0.0)
+        nodes = self.nodes()
+        free = solve_ivp(
+            lambda s, y: unloaded._derivatives(s, y[:, None])[:, 0],
+            (0.0, 1.0),
+            np.concatenate([[0.0] * 6, [1.0], [0.0] * 6]),
+            t_eval=nodes,
+            rtol=1e-9,
+            atol=1e-10,
+        )
+        guess = free.y
+        for weight in np.linspace(0.0, self.weight, steps + 1)[1:]:
+            bvp = replace(self, weight=weight)._solve_free(nodes, guess)
+            nodes, guess = bvp.x, bvp.y
+        return KirchhoffRod(self.length, self.bending_stiffness, bvp)
+
+    def _solve_free(self, nodes: np.ndarray, guess: np.ndarray):
+        def conditions(first, last):
+            start = np.array([0.0, 0.0, 0.0, 1.0])
+            return np.concatenate([first[:3], first[3:7] - start, last[7:13]])
+
+        bvp = solve_bvp(
+            self._derivatives, conditions, nodes, guess, tol=TOLERANCE, max_nodes=MAX_NODES
+        )
+        if not bvp.success:
+            raise RuntimeError(f"no Kirchhoff rod with a free end was found: {bvp.message}")
+        return bvp
 
     def planar_guess(self, shape) -> np.ndarray:
         """State (13, NODES) of a planar solution (an ``Elastica`` of the same rod)."""
@@ -119,6 +155,8 @@ class KirchhoffProblem:
         t = tangents(q)
         ratio = self.bending_stiffness / self.torsion_stiffness - 1.0
         rate = m + ratio * np.sum(t * m, axis=0) * t
+        natural = self.length * np.tile(np.asarray(self.natural, dtype=float), (len(q.T), 1))
+        rate = rate + turned(q, natural.T)
         turning = 0.5 * quaternion_product(np.vstack([rate, np.zeros_like(rate[0])]), q)
         weight = np.zeros_like(n)
         weight[2] = self.weight * self.length**3 / self.bending_stiffness
@@ -137,6 +175,13 @@ def quaternion_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
             aw * bw - ax * bx - ay * by - az * bz,
         ]
     )
+
+
+def turned(q: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Vectors (3, n) turned by quaternions (4, n); not divided by their norm."""
+    back = q * np.array([[-1.0], [-1.0], [-1.0], [1.0]])
+    pure = np.vstack([vectors, np.zeros_like(vectors[0])])
+    return quaternion_product(quaternion_product(q, pure), back)[:3]
 
 
 def tangents(q: np.ndarray) -> np.ndarray:
