@@ -455,3 +455,13 @@ def test_a_load_is_shown_with_its_unit():
     assert BARRIERS["strain"].show(0.5) == "0.5"
     assert BARRIERS["collision"].show(0.0123) == "12.3 mm"
     assert BARRIERS["bending"].show(None) == "none"
+
+
+@pytest.mark.parametrize(
+    "barrier, limit", [("tension", {"max_tension": 50.0}), ("twist", {"max_twist": 5.0})]
+)
+def test_joint_loads_with_point_masses_are_refused(barrier, limit):
+    masses = [{"at": 0.5, "mass": 0.1}]
+    values = [("object.point_masses", str(masses)), (f"controller.{barrier}", str(limit))]
+    with pytest.raises(ScenarioError, match=f"controller.{barrier}: .*object.point_masses"):
+        load_scenario("rope_one_assistant", values)

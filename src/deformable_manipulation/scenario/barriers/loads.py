@@ -101,6 +101,22 @@ def demand_rod(name: str, why: str):
     return check
 
 
+def demand_even_rod(name: str, why: str):
+    """Like :func:`demand_rod`, for barriers that know the weight by the length alone."""
+    is_rod = demand_rod(name, why)
+
+    def check(report, spec, agents, controller) -> None:
+        is_rod(report, spec, agents, controller)
+        if isinstance(spec, RodSpec) and spec.point_masses:
+            report.add(
+                ("controller", name),
+                "does not know the weight of object.point_masses. Remove one of the two sections",
+                "with point masses",
+            )
+
+    return check
+
+
 def weights_between_grips(scenario) -> Dict[str, Any]:
     """The ``derive`` of a barrier on joints: weight of a segment [N], particles that are held."""
     rod = scenario.object
