@@ -48,15 +48,13 @@ void Differences::updateAgent(int index, const ObservationView& observation) {
       continue;
     }
     ++own;
-    const Eigen::Map<const Vector3> displacement(observation.displacements + 3 * copy);
-    if (observation.ready[copy] && displacement.cwiseAbs().maxCoeff() > SMALLEST_DISPLACEMENT) {
+    if (isUsable(observation, copy)) {
       usable_.push_back(copy);
     }
   }
   if (own == 0) {
     agent.known = false;
     agent.rates.setZero();
-    agent.parting.resize(0, 0);
   } else if (!usable_.empty()) {
     agent.known = agent.known || static_cast<int>(usable_.size()) == own;
     fill(agent, observation);
@@ -98,9 +96,13 @@ void Differences::fill(Agent& agent, const ObservationView& observation) {
       agent.rates.row(axis) += agent.inverse(axis, i) * change_.row(i);
     }
   }
-  explained_.noalias() = agent.inverse * change_.leftCols(size);
-  agent.parting = change_.leftCols(size);
-  agent.parting.noalias() -= directions_ * explained_;
+}
+
+bool Differences::isUsable(const ObservationView& observation, int copy) const {
+  const int agent = observation.displaced_agents[copy];
+  const Eigen::Map<const Vector3> displacement(observation.displacements + 3 * copy);
+  return agent >= 0 && agent != leader_ && observation.ready[copy] &&
+         displacement.cwiseAbs().maxCoeff() > SMALLEST_DISPLACEMENT;
 }
 
 void Differences::takeResponse(std::vector<double>& to) const {
@@ -136,11 +138,11 @@ void Differences::takeWrenchResponse(std::vector<double>& to) const {
   }
 }
 
-void Differences::takeGradients(const distance::Distances& distances, Features& features) const {
+void Differences::takeGradients(const ObservationView& observation, Features& features) const {
+  const distance::Distances& distances = *observation.distances;
   features.take({distances}, static_cast<int>(agents_.size()));
   for (int m = 0; m < features.size(); ++m) {
     const distance::Feature& feature = distances.features[m];
-    features.parting[m] = partingOf(feature, features.normal[m]);
     for (int agent = 0; agent < features.agents(); ++agent) {
       for (int k = 0; k < 3 && agent != leader_; ++k) {
         const auto rates = agents_[agent].rates.middleCols<3>(3L * feature.vertices[k]);
@@ -148,22 +150,30 @@ void Differences::takeGradients(const distance::Distances& distances, Features& 
       }
     }
   }
+  takePartings(observation, features);
   features.completeLeader(leader_);
 }
 
-//! [m] The greatest of all copies, along the normal.
-double Differences::partingOf(const distance::Feature& feature, const Vector3& normal) const {
-  double greatest = 0.0;
-  for (const Agent& agent : agents_) {
-    for (Eigen::Index copy = 0; copy < agent.parting.rows(); ++copy) {
-      double parting = 0.0;
+//! The greatest parting of all copies along each feature's normal.
+void Differences::takePartings(const ObservationView& observation, Features& features) const {
+  const Eigen::Index size = 3L * observation.points;
+  for (int copy = 0; copy < observation.copies; ++copy) {
+    if (!isUsable(observation, copy)) {
+      continue;
+    }
+    const int agent = observation.displaced_agents[copy];
+    const Eigen::Map<const Vector3> displacement(observation.displacements + 3 * copy);
+    for (int m = 0; m < features.size(); ++m) {
+      const distance::Feature& feature = observation.distances->features[m];
+      double parting = -displacement.dot(features.gradient(m, agent));
       for (int k = 0; k < 3; ++k) {
-        parting += feature.weights[k] * agent.parting.row(copy).segment<3>(3L * feature.vertices[k]).dot(normal);
+        const double* vertex = observation.coordinates + 3L * feature.vertices[k];
+        const Eigen::Map<const Vector3> now(vertex), displaced(vertex + copy * size);
+        parting += feature.weights[k] * (displaced - now).dot(features.normal[m]);
       }
-      greatest = std::max(greatest, std::abs(parting));
+      features.parting[m] = std::max(features.parting[m], std::abs(parting));
     }
   }
-  return greatest;
 }
 
 void Differences::takeMinimum(const distance::Distances& distances, Features& features) const {

@@ -38,7 +38,7 @@ void Gradients::take(const ObservationView& observation) {
   } else if (nearest_only) {
     differences_.takeMinimum(*observation.distances, features_);
   } else {
-    differences_.takeGradients(*observation.distances, features_);
+    differences_.takeGradients(observation, features_);
   }
 }
 

@@ -108,7 +108,7 @@ void bindGradients(py::module_& module) {
           "features",
           [](BoundDifferences& b, const py::object& seen) {
             Features features;
-            b.differences.takeGradients(*b.read(seen).distances, features);
+            b.differences.takeGradients(b.read(seen), features);
             return features;
           },
           py::arg("observation"), "All features of copy 0, each with the rates of its own material point.")

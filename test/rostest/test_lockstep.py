@@ -61,7 +61,7 @@ class LockstepTest(unittest.TestCase):
         offset = self.scenario.controller.collision.offset
         self.assertGreaterEqual(lowest, offset - 0.001)
         # It comes near, or nothing would be shown.
-        self.assertLess(lowest, offset + 0.025)
+        self.assertLess(lowest, offset + rospy.get_param("~near", 0.02))
 
     def test_gradients_come_from_where_the_scenario_says(self):
         exact = self.scenario.controller.jacobian == "equilibrium"

@@ -50,7 +50,8 @@ class Differences {
 
   //! All features of copy 0, each with the rates of its own material point. The distance of a locally nearest pair
   //! changes with the points' motion along the normal: g[m, a, j] = normal . dX_m / dp_aj.
-  void takeGradients(const distance::Distances& distances, Features& features) const;
+  //! @param observation the one that was taken in last
+  void takeGradients(const ObservationView& observation, Features& features) const;
 
   //! The nearest feature of copy 0 with the rates of the minimum distance (paper, eq. 6).
   void takeMinimum(const distance::Distances& distances, Features& features) const;
@@ -63,21 +64,20 @@ class Differences {
   struct Agent {
     bool known = false;
     Rates rates;              // [3, K] of the coordinates of the points, the wrenches if told, and the minimum
-    Rows parting;             // [ready copies, 3 P] m, of the points
     Directions directions;    // [ready copies, 3] m, that the inverse is of
     Eigen::MatrixXd inverse;  // [3, ready copies]
   };
 
   void updateAgent(int index, const ObservationView& observation);
   void fill(Agent& agent, const ObservationView& observation);
-  double partingOf(const distance::Feature& feature, const Vector3& normal) const;
+  bool isUsable(const ObservationView& observation, int copy) const;
+  void takePartings(const ObservationView& observation, Features& features) const;
 
   int leader_;
   int points_ = 0;  // P
   std::vector<Agent> agents_;
   std::vector<int> usable_;  // copies of the agent at hand
   Directions directions_;    // [usable, 3] m
-  Rates explained_;          // [3, 3 P] part of the changes that the rates take in
   Rows change_;              // [usable, K]
 };
 
