@@ -54,10 +54,10 @@ class Replay:
         _check(spec, shapes, options)
         self.held = options.held or default_held(len(shapes.arc_lengths))
         try:
-            self.grips = grips_of(shapes, self.held, spec.length, spec.segments)
+            self.grips = grips_of(shapes, self.held, spec)
         except ValueError as error:
             raise MeasuredShapesError(str(error)) from error
-        self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
+        self._ends = np.array(spec.arc_lengths)
         self._start = self._first_state()
 
     def run(self, spec: RodSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
