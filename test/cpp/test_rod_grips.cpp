@@ -132,18 +132,18 @@ TEST_P(Gripped, movesFreelyWithItsMomentum) {
 TEST_P(Gripped, hasCopiesThatAreDisplacedRods) {
   RodParameters p = gripped({{0, 0.02}, {27, 0.02}});
   p.solver = GetParam();
+  const Vector3 displacement(0.0, -0.1, 0.05);
   auto rod = hangingRope(p, 1.5, Hold::CLAMPED);
-  auto elsewhere = hangingRope(p, 1.5, Hold::CLAMPED);
-  const Vector3 by(0.02, -0.05, 0.1);
-  rod->addCopy(27, by);
-  Pose moved = gripAt(p, Vector3(0.0, 1.5, 0.0));
-  moved.position += by;
-  elsewhere->setPose(27, moved);
+  rod->addCopy(27, displacement);
+  Rod displaced(p);
+  displaced.hold(0, Hold::CLAMPED, gripAt(p, Vector3::Zero()));
+  displaced.hold(27, Hold::CLAMPED, gripAt(p, Vector3(0.0, 1.5, 0.0) + displacement));
+  displaced.layOut();
   for (int i = 0; i < 600; ++i) {
     rod->step(0.01, 4);
-    elsewhere->step(0.01, 4);
+    displaced.step(0.01, 4);
   }
-  EXPECT_LT(difference(*rod, 1, *elsewhere, 0), 1e-6);
+  EXPECT_LT(difference(*rod, 1, displaced, 0), 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSolvers, Gripped, testing::Values(RodSolver::DIRECT, RodSolver::GAUSS_SEIDEL),

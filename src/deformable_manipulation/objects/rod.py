@@ -197,9 +197,9 @@ class RodSpec(ObjectSpec):
 
     def held_by(self, grips: Sequence[Tuple[int, Optional[float]]]) -> "RodSpec":
         """See :meth:`.ObjectSpec.held_by`."""
-        if all(length is None for _, length in grips):
-            return self
-        return dataclasses.replace(self, grips=tuple(Grip(*grip) for grip in sorted(grips)))
+        own = any(length is not None for _, length in grips)
+        held = tuple(Grip(*grip) for grip in sorted(grips)) if own else ()
+        return dataclasses.replace(self, grips=held)
 
     def division_problem(self) -> Optional[str]:
         """Why it cannot be divided into segments next to its grips, None if it can."""

@@ -64,7 +64,8 @@ def _tightest(drafts: Dict[str, Draft], rod: RodSpec) -> str:
     usual = rod.length / rod.segments
     last = rod.segments - 1
     begins, ends, names = [], [], []
-    for name, draft in sorted(drafts.items(), key=lambda item: item[1]["particle"]):
+    ordered = sorted(drafts.items(), key=lambda item: item[1]["particle"])
+    for name, draft in ordered:
         half = 0.5 * (usual if draft["grip_length"] is None else draft["grip_length"])
         centre = (draft["particle"] + 0.5) * usual
         begins.append(0.0 if draft["particle"] == 0 else centre - half)
@@ -74,8 +75,8 @@ def _tightest(drafts: Dict[str, Draft], rod: RodSpec) -> str:
         (begin - end, "the grips of {} and {}".format(*pair))
         for end, begin, pair in zip(ends, begins[1:], zip(names, names[1:]))
     ]
-    if begins[0] > 0.0:
+    if ordered[0][1]["particle"] > 0:
         rooms.append((begins[0], "the first end and the grip of {}".format(names[0])))
-    if ends[-1] < rod.length:
+    if ordered[-1][1]["particle"] < last:
         rooms.append((rod.length - ends[-1], "the grip of {} and the last end".format(names[-1])))
     return "must leave more of the rod between {}".format(min(rooms)[1])

@@ -30,8 +30,9 @@ scenario) that keep 0, 20 or 50 mm of it straight. Theory: the elastica that beg
 grippers' edges. The deviation is the largest distance between a joint outside the grippers and
 the point of the elastica at the same arc length. *Hanging*: between two grippers, at the chords
 of the first section; without a length of the grips, the deviation from the same theory is 6.6 mm
-in 28 segments. *Cantilever*: one gripper, E from limp to stiff. *Twist*: one of two grippers 2 m
-apart turns about the rod; the torque is G J times the turn over the length between the edges."""
+in 28 segments. *Cantilever*: one gripper, E from limp to stiff. *Twist*: one of two grippers
+of 50 mm turns about the straight rod; the torque is G J times the turn over the length between the
+edges."""
 CHORDS = {"level": (1.5, 0.0), "not level": (1.3, 0.6)}  # m
 LENGTHS = (0.0, 0.02, 0.05)  # m
 SEGMENTS = (28, 56, 112)
