@@ -50,7 +50,7 @@ def grips_of(shapes: MeasuredShapes, held: Sequence[Sequence[int]], spec: RodSpe
     grips = []
     for numbers in held:
         first, last = numbers[0], numbers[-1]
-        centre = 0.5 * (shapes.arc_lengths[first] + shapes.arc_lengths[last])
+        centre = 0.5 * (shapes.places[first] + shapes.places[last])
         particle = spec.segment_at(centre)
         if any(grip.particle == particle for grip in grips):
             raise ValueError(f"two grippers hold segment {particle}: use more segments")
@@ -66,7 +66,7 @@ def grips_of(shapes: MeasuredShapes, held: Sequence[Sequence[int]], spec: RodSpe
                 f"points {first} and {last} of a gripper are at the same place at {time:g} s"
             )
         tangents /= lengths
-        beyond = spec.centre(particle) - shapes.arc_lengths[first]
+        beyond = spec.centre(particle) - shapes.places[first]
         positions = points[:, first] + beyond * tangents
         orientations = _carried(frames[first], tangents)
         grips.append(Grip(particle, "clamped", positions, orientations))
