@@ -317,8 +317,14 @@ class RodSpec(ObjectSpec):
 
     def description(self) -> str:
         """What it is, in a few words."""
-        return "rod of {:g} m, radius {:g} m, {} segments".format(
-            self.length, self.radius, self.segments
+        lengths = self.segment_lengths
+        sizes = (
+            ""
+            if self.has_equal_segments
+            else " of {:.2g} to {:.2g} m".format(min(lengths), max(lengths))
+        )
+        return "rod of {:g} m, radius {:g} m, {} segments{}".format(
+            self.length, self.radius, self.segments, sizes
         )
 
     def material_description(self) -> str:

@@ -52,6 +52,8 @@ def test_what_follows_from_lengths_follows_from_these():
     edges, lengths = spec.edges()
     np.testing.assert_allclose(lengths, spec.segment_lengths)
     assert len(edges) == 28
+    assert spec.description().endswith("28 segments of 0.021 to 0.11 m")
+    assert loaded().object.description().endswith("28 segments")
 
 
 def test_agents_without_a_start_hold_their_segments_where_they_are():
