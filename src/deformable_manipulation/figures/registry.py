@@ -165,7 +165,7 @@ SUBJECT_LIST: Sequence[Subject] = (
         worlds.measure_fabrics,
     ),
     Subject({"clamp": REAL_OBJECTS}, "by hand, hang() of the validation", THEORY),
-    Subject({"grips": REAL_OBJECTS}, "validate --case grips, copied by hand", THEORY),
+    Subject({"grips": REAL_OBJECTS}, "validate --case grips, and hang() without grips", THEORY),
     Subject({"world_theory": REAL_OBJECTS}, "by hand, see test_engine_world.py", CLOSED_LOOP),
     Subject({"fabric_gradients": SAFETY}, "by hand, see test_fabric_gradients.py", CLOSED_LOOP),
     Subject({"stiff_fabric": SAFETY}, "run_campaign fabric_three_assistants [OPTIONS]", CAMPAIGNS),
