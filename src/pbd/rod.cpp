@@ -34,6 +34,10 @@ Rod::Rod(const RodParameters& parameters)
     each->resize(n);
   }
   s.angular_rate.resize(n);
+  s.joints.resize(n - 1);
+  for (int i = 0; i < n; ++i) {
+    s.places.push_back(pieces_->equal ? i : pieces_->between(0, i) / pieces_->usual);
+  }
   s.reference_velocity.resize(3 * n);
   s.reference_angular_velocity.resize(3 * n);
   s.motions.resize(n);

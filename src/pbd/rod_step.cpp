@@ -54,7 +54,6 @@ void Rod::beginStep(double h) {
 void Rod::describeJoints(double h) {
   const RodParameters& p = parameters_;
   RodSubstepInput& in = state_->input;
-  state_->joints.resize(pieces_->joint_lengths.size());
   for (std::size_t j = 0; j < state_->joints.size(); ++j) {
     state_->joints[j] = jointStiffness(static_cast<int>(j), h);
   }
@@ -96,10 +95,6 @@ void Rod::updateReferenceMotion() {
   State& s = *state_;
   const RodParameters& p = parameters_;
   if (!holds().empty()) {
-    s.places.resize(p.segments);
-    for (int i = 0; i < p.segments; ++i) {
-      s.places[i] = pieces_->equal ? i : pieces_->between(0, i) / pieces_->usual;
-    }
     carriedMotion(holds(), s.places, s.reference_velocity.data(), s.reference_angular_velocity.data());
     return;
   }
