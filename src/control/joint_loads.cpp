@@ -1,5 +1,7 @@
 #include "deformable_manipulation/control/joint_loads.h"
 
+#include <numeric>
+
 namespace deformable_manipulation {
 namespace control {
 namespace {
@@ -16,13 +18,17 @@ void addCentreGradient(const ObjectShape& shape, int segment, const Vector3& by,
 }  // namespace
 
 JointLoads::JointLoads(const ParameterSection& section, const Team& team)
-    : weight_(section.vector<3>("weight")), particles_(section.integers("particles")) {
+    : weight_(section.vector<3>("weight")),
+      shares_(section.numbers("shares")),
+      before_(shares_.size()),
+      particles_(section.integers("particles")) {
+  std::partial_sum(shares_.begin(), shares_.end(), before_.begin());
   section.check().require(static_cast<int>(particles_.size()) == team.agents, section.pathOf("particles"),
                           static_cast<double>(particles_.size()), "a particle per agent");
 }
 
 Vector3 JointLoads::force(const ObjectShape& shape, int joint) const {
-  Vector3 force = -(joint + 1) * weight_;
+  Vector3 force = -(shares_.empty() ? joint + 1.0 : before_[joint]) * weight_;
   for (int agent = 0; agent < shape.agents; ++agent) {
     if (particles_[agent] <= joint) {
       force += shape.wrench(agent).head<3>();
@@ -41,7 +47,7 @@ Vector3 JointLoads::moment(const ObjectShape& shape, int joint) const {
     }
   }
   for (int segment = 0; segment <= joint; ++segment) {
-    moment -= (centre(shape, segment) - here).cross(weight_);
+    moment -= (centre(shape, segment) - here).cross(shareOf(segment) * weight_);
   }
   return moment;
 }
@@ -71,7 +77,7 @@ void JointLoads::addMomentGradient(const ObjectShape& shape, int joint, const Ve
     addCentreGradient(shape, particles_[agent], shape.wrench(agent).head<3>().cross(by), gradients);
   }
   for (int segment = 0; segment <= joint; ++segment) {
-    addCentreGradient(shape, segment, -weight_.cross(by), gradients);
+    addCentreGradient(shape, segment, -shareOf(segment) * weight_.cross(by), gradients);
   }
   shape.addPointGradient(joint + 1, -force(shape, joint).cross(by), gradients);
 }

@@ -16,7 +16,8 @@ namespace control {
 //! on the joint's first segment; F and T are what the rod exerts on the agents.
 class JointLoads {
  public:
-  //! @param section with the keys `weight` [N] of a segment, and `particles`, the segment that each agent holds
+  //! @param section with the keys `weight` [N] of a segment of the usual length, `shares` [N], the lengths of the
+  //! segments over that (empty: all 1), and `particles`, the segment that each agent holds
   JointLoads(const ParameterSection& section, const Team& team);
 
   //! [N] On the joint's first segment.
@@ -32,7 +33,11 @@ class JointLoads {
   void addMomentGradient(const ObjectShape& shape, int joint, const Vector3& by, std::vector<Vector6>& gradients) const;
 
  private:
+  double shareOf(int segment) const { return shares_.empty() ? 1.0 : shares_[segment]; }
+
   Vector3 weight_;
+  std::vector<double> shares_;  // [N]
+  std::vector<double> before_;  // [N] sums of them, up to each segment
   std::vector<int> particles_;  // [A]
 };
 

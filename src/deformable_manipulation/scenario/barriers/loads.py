@@ -118,10 +118,14 @@ def demand_even_rod(name: str, why: str):
 
 
 def weights_between_grips(scenario) -> Dict[str, Any]:
-    """The ``derive`` of a barrier on joints: weight of a segment [N], particles that are held."""
+    """The ``derive`` of a barrier on joints: weights of segments [N], and which are held."""
     rod = scenario.object
+    usual = rod.length / rod.segments
     gravity = scenario.simulation.gravity
     return {
         "weight": [rod.mass / rod.segments * component for component in gravity],
+        "shares": []
+        if rod.has_equal_segments
+        else [length / usual for length in rod.segment_lengths],
         "particles": [agent.particle for agent in scenario.agents],
     }
