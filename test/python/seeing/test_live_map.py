@@ -150,7 +150,9 @@ def test_shapes_of_a_robot_are_left_out():
     assert len(made.seen.places[-1]) == 2
 
 
-@pytest.mark.parametrize("points", [np.full((50, 3), np.nan), np.empty((0, 3))])
+@pytest.mark.parametrize(
+    "points", [np.full((50, 3), np.nan), np.empty((0, 3)), np.empty((20, 0, 3))]
+)
 def test_data_without_points_change_nothing(points):
     made = live_map()
     take(made, 0.0, floor(0.5))
@@ -158,6 +160,13 @@ def test_data_without_points_change_nothing(points):
     with pytest.raises(ValueError, match="it has 0 points of which something can be made; 1 at"):
         take(made, 0.1, points)
     assert made.seen is seen
+
+
+def test_an_image_without_points_changes_nothing():
+    made = live_map(**NOISY)
+    for points in (np.full((20, 10, 3), np.nan), np.empty((20, 0, 3))):
+        with pytest.raises(ValueError, match="it has 0 points of which something can be made"):
+            take(made, 0.0, points)
 
 
 def test_nothing_may_be_there_if_that_is_said():
