@@ -234,6 +234,20 @@ class RodSpec(ObjectSpec):
         """Of the whole rod with its point masses [kg]."""
         return self.mass_per_length * self.length + sum(each.mass for each in self.point_masses)
 
+    def segment_masses(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Masses (N,) [kg] of the segments with the point masses that they carry.
+
+        And moments (N,) [kg m] of masses off the segments' centres, towards the last end.
+        """
+        piece = self.length / self.segments
+        masses = np.full(self.segments, self.mass_per_length * self.length / self.segments)
+        moments = np.zeros(self.segments)
+        for point in self.point_masses:
+            segment = min(int(point.at / piece), self.segments - 1)
+            masses[segment] += point.mass
+            moments[segment] += point.mass * (point.at - (segment + 0.5) * piece)
+        return masses, moments
+
     @property
     def mass_per_length(self) -> float:
         """Without point masses [kg/m]."""
