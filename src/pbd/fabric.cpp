@@ -165,6 +165,12 @@ double Fabric::freeLength(int particle, int other) const {
   return s.distances.from(particle)[other];
 }
 
+Pose Fabric::undeformedPose(int particle) const {
+  requireParticle(particle);
+  const Pose& pose = parameters_.pose;
+  return {pose.position + pose.orientation * parameters_.vertices[particle], pose.orientation};
+}
+
 double Fabric::mass() const { return std::accumulate(state_->masses.begin(), state_->masses.end(), 0.0); }
 
 double Fabric::stretch() const {
@@ -336,6 +342,8 @@ ResponseStatus Fabric::response(double* to) {
   positions(0, s.shape.data());
   return response_->compute(s.constraints, s.shape.data(), to);
 }
+
+bool Fabric::turningResponse(double* to) const { return response_ != nullptr && response_->turns(to); }
 
 void Fabric::points(double* to) const {
   for (int copy = 0; copy < copyCount(); ++copy, to += 3 * pointCount()) {

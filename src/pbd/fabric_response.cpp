@@ -13,6 +13,15 @@ constexpr double kLargestResponse = 10.0;
 // Calls for which the last derivative counts on while the fabric snaps.
 constexpr int kSnapLasts = 300;
 
+using Response = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
+//! How a point turns about another one: d (turn x arm) / d turn.
+Eigen::Matrix3d turning(const Vector3& arm) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
+  return matrix;
+}
+
 Eigen::Map<const Vector3> vertexIn(const double* positions, int vertex) {
   return Eigen::Map<const Vector3>(positions + 3 * vertex);
 }
@@ -20,15 +29,31 @@ Eigen::Map<const Vector3> vertexIn(const double* positions, int vertex) {
 }  // namespace
 
 FabricResponse::FabricResponse(int vertices, const FabricConstraints& constraints, const std::vector<HeldPoint>& holds)
-    : free_(vertices, 0), held_(vertices, -1), held_count_(static_cast<int>(holds.size())) {
-  for (int hold = 0; hold < held_count_; ++hold) {
-    held_[holds[hold].particle] = hold;
-  }
+    : free_(vertices, 0), grip_(vertices, -1), arms_(vertices, Vector3::Zero()) {
+  describeGrips(holds);
   for (int vertex = 0; vertex < vertices; ++vertex) {
-    free_[vertex] = held_[vertex] < 0 ? free_count_++ : -1;
+    free_[vertex] = grip_[vertex] < 0 ? free_count_++ : -1;
   }
   makePattern(constraints);
-  right_.resize(3 * free_count_, 3 * held_count_);
+}
+
+void FabricResponse::describeGrips(const std::vector<HeldPoint>& holds) {
+  for (const HeldPoint& hold : holds) {
+    if (hold.leads()) {
+      grips_.push_back({hold.particle, -1});
+    }
+  }
+  int columns = 3 * static_cast<int>(grips_.size());
+  for (const HeldPoint& hold : holds) {
+    const auto leads = [&](const Grip& grip) { return grip.vertex == hold.grip; };
+    const auto grip = std::find_if(grips_.begin(), grips_.end(), leads);
+    grip_[hold.particle] = static_cast<int>(grip - grips_.begin());
+    if (!hold.leads() && grip->turn_column < 0) {
+      grip->turn_column = columns;
+      columns += 3;
+    }
+  }
+  right_.resize(3 * std::count(grip_.begin(), grip_.end(), -1), columns);
 }
 
 void FabricResponse::makePattern(const FabricConstraints& constraints) {
@@ -79,6 +104,11 @@ ResponseStatus FabricResponse::compute(const FabricConstraints& constraints, con
 void FabricResponse::assemble(const FabricConstraints& constraints, const double* positions) {
   std::fill_n(stiffness_.valuePtr(), stiffness_.nonZeros(), 0.0);
   right_.setZero();
+  for (std::size_t vertex = 0; vertex < grip_.size(); ++vertex) {
+    if (grip_[vertex] >= 0) {
+      arms_[vertex] = vertexIn(positions, static_cast<int>(vertex)) - vertexIn(positions, grips_[grip_[vertex]].vertex);
+    }
+  }
   const double* spring = constraints.springs().data();
   const double* fold = constraints.folds().data();
   for (const HingeConstraint& hinge : constraints.hinges()) {
@@ -118,8 +148,8 @@ void FabricResponse::add(int vertex, int other, const Eigen::Matrix3d& block) {
   if (row < 0) {
     return;
   }
-  if (held_[other] >= 0) {
-    right_.block<3, 3>(3 * row, 3 * held_[other]) -= block;
+  if (grip_[other] >= 0) {
+    addHeld(row, other, block);
     return;
   }
   const int column = free_[other];
@@ -128,6 +158,14 @@ void FabricResponse::add(int vertex, int other, const Eigen::Matrix3d& block) {
   for (int axis = 0; axis < 3; ++axis) {
     double* to = stiffness_.valuePtr() + stiffness_.outerIndexPtr()[3 * column + axis] + 3 * place;
     Eigen::Map<Vector3>(to) += block.col(axis);
+  }
+}
+
+void FabricResponse::addHeld(int row, int held, const Eigen::Matrix3d& block) {
+  right_.block<3, 3>(3 * row, 3 * grip_[held]) -= block;
+  const int column = grips_[grip_[held]].turn_column;
+  if (column >= 0) {
+    right_.block<3, 3>(3 * row, column) -= block * turning(arms_[held]);
   }
 }
 
@@ -146,18 +184,36 @@ bool FabricResponse::solve() {
 }
 
 void FabricResponse::write(double* to) const {
-  using Response = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-  for (int hold = 0; hold < held_count_; ++hold) {
+  for (int grip = 0; grip < static_cast<int>(grips_.size()); ++grip) {
     for (std::size_t vertex = 0; vertex < free_.size(); ++vertex, to += 9) {
       Response response(to);
       if (free_[vertex] >= 0) {
-        response = moved_.block<3, 3>(3 * free_[vertex], 3 * hold);
+        response = moved_.block<3, 3>(3 * free_[vertex], 3 * grip);
       } else {
         response.setZero();
-        response.diagonal().setConstant(held_[vertex] == hold ? 1.0 : 0.0);
+        response.diagonal().setConstant(grip_[vertex] == grip ? 1.0 : 0.0);
       }
     }
   }
+}
+
+bool FabricResponse::turns(double* to) const {
+  bool any = false;
+  for (int grip = 0; grip < static_cast<int>(grips_.size()); ++grip) {
+    const int column = grips_[grip].turn_column;
+    any = any || column >= 0;
+    for (std::size_t vertex = 0; vertex < free_.size(); ++vertex, to += 9) {
+      Response response(to);
+      if (column >= 0 && free_[vertex] >= 0) {
+        response = moved_.block<3, 3>(3 * free_[vertex], column);
+      } else if (grip_[vertex] == grip) {
+        response = turning(arms_[vertex]);
+      } else {
+        response.setZero();
+      }
+    }
+  }
+  return any;
 }
 
 }  // namespace pbd
