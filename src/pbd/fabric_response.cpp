@@ -26,6 +26,31 @@ Eigen::Map<const Vector3> vertexIn(const double* positions, int vertex) {
   return Eigen::Map<const Vector3>(positions + 3 * vertex);
 }
 
+template <typename Add>
+void forSpring(const int* at, double spring, double rest_length, const double* positions, Add add) {
+  const int start = vertexAt(at[0]);
+  const int end = vertexAt(at[1]);
+  const Vector3 span = vertexIn(positions, end) - vertexIn(positions, start);
+  const double part = rest_length / span.norm();  // of the stiffness along the edge that is missing across it
+  const Vector3 along = span.normalized();
+  const Eigen::Matrix3d block =
+      spring * ((1.0 - part) * Eigen::Matrix3d::Identity() + part * along * along.transpose());
+  add(start, start, block);
+  add(end, end, block);
+  add(start, end, -block);
+  add(end, start, -block);
+}
+
+template <typename Add>
+void forFold(const HingeConstraint& hinge, double spring, Add add) {
+  const std::array<double, 4> weights = weightsOf(hinge);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      add(vertexAt(hinge.at[i]), vertexAt(hinge.at[j]), spring * weights[i] * weights[j] * Eigen::Matrix3d::Identity());
+    }
+  }
+}
+
 }  // namespace
 
 FabricResponse::FabricResponse(int vertices, const FabricConstraints& constraints, const std::vector<HeldPoint>& holds)
@@ -94,7 +119,8 @@ void FabricResponse::makePattern(const FabricConstraints& constraints) {
 ResponseStatus FabricResponse::compute(const FabricConstraints& constraints, const double* positions, double* to) {
   assemble(constraints, positions);
   missed_ = free_count_ == 0 || solve() ? 0 : missed_ + 1;
-  if (missed_ > (moved_.size() > 0 ? kSnapLasts : 0)) {
+  known_ = missed_ <= (moved_.size() > 0 ? kSnapLasts : 0);
+  if (!known_) {
     return ResponseStatus::UNSTABLE;
   }
   write(to);
@@ -109,37 +135,21 @@ void FabricResponse::assemble(const FabricConstraints& constraints, const double
       arms_[vertex] = vertexIn(positions, static_cast<int>(vertex)) - vertexIn(positions, grips_[grip_[vertex]].vertex);
     }
   }
+  forAllBlocks(constraints, positions,
+               [this](int vertex, int other, const Eigen::Matrix3d& block) { add(vertex, other, block); });
+}
+
+//! Calls add(vertex, other, block) for all blocks of second derivatives of the energy [N/m].
+template <typename Add>
+void FabricResponse::forAllBlocks(const FabricConstraints& constraints, const double* positions, Add add) const {
   const double* spring = constraints.springs().data();
   const double* fold = constraints.folds().data();
   for (const HingeConstraint& hinge : constraints.hinges()) {
-    addSpring(hinge.at, *spring++, hinge.stretch.rest_length, positions);
-    addFold(hinge, *fold++);
+    forSpring(hinge.at, *spring++, hinge.stretch.rest_length, positions, add);
+    forFold(hinge, *fold++, add);
   }
   for (const BoundaryConstraint& boundary : constraints.boundaries()) {
-    addSpring(boundary.at, *spring++, boundary.stretch.rest_length, positions);
-  }
-}
-
-void FabricResponse::addSpring(const int* at, double spring, double rest_length, const double* positions) {
-  const int start = vertexAt(at[0]);
-  const int end = vertexAt(at[1]);
-  const Vector3 span = vertexIn(positions, end) - vertexIn(positions, start);
-  const double part = rest_length / span.norm();  // of the stiffness along the edge that is missing across it
-  const Vector3 along = span.normalized();
-  const Eigen::Matrix3d block =
-      spring * ((1.0 - part) * Eigen::Matrix3d::Identity() + part * along * along.transpose());
-  add(start, start, block);
-  add(end, end, block);
-  add(start, end, -block);
-  add(end, start, -block);
-}
-
-void FabricResponse::addFold(const HingeConstraint& hinge, double spring) {
-  const std::array<double, 4> weights = weightsOf(hinge);
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      add(vertexAt(hinge.at[i]), vertexAt(hinge.at[j]), spring * weights[i] * weights[j] * Eigen::Matrix3d::Identity());
-    }
+    forSpring(boundary.at, *spring++, boundary.stretch.rest_length, positions, add);
   }
 }
 
@@ -198,6 +208,9 @@ void FabricResponse::write(double* to) const {
 }
 
 bool FabricResponse::turns(double* to) const {
+  if (!known_) {
+    return false;
+  }
   bool any = false;
   for (int grip = 0; grip < static_cast<int>(grips_.size()); ++grip) {
     const int column = grips_[grip].turn_column;
@@ -214,6 +227,66 @@ bool FabricResponse::turns(double* to) const {
     }
   }
   return any;
+}
+
+bool FabricResponse::wrenches(const FabricConstraints& constraints, const double* positions, const double* forces,
+                              double* to) {
+  if (!known_) {
+    return false;
+  }
+  forces_.setZero(3 * static_cast<Eigen::Index>(free_.size()), right_.cols());
+  forAllBlocks(constraints, positions,
+               [this](int vertex, int other, const Eigen::Matrix3d& block) { addForceChange(vertex, other, block); });
+  const int grips = static_cast<int>(grips_.size());
+  for (int of = 0; of < grips; ++of) {
+    for (int by = 0; by < grips; ++by) {
+      const Eigen::Matrix<double, 6, 6> change = wrenchChange(of, by, forces);
+      for (int row = 0; row < 6; ++row) {
+        Eigen::Map<Vector6>(to + 6 * ((6 * of + row) * grips + by)) = change.row(row).transpose();
+      }
+    }
+  }
+  return true;
+}
+
+//! Adds what the motion of another vertex changes of the force at a held one.
+void FabricResponse::addForceChange(int vertex, int other, const Eigen::Matrix3d& block) {
+  if (grip_[vertex] < 0) {
+    return;
+  }
+  auto change = forces_.middleRows<3>(3 * vertex);
+  if (grip_[other] < 0) {
+    change.noalias() -= block * moved_.middleRows<3>(3 * free_[other]);
+    return;
+  }
+  change.middleCols<3>(3 * grip_[other]) -= block;
+  const int column = grips_[grip_[other]].turn_column;
+  if (column >= 0) {
+    change.middleCols<3>(column) -= block * turning(arms_[other]);
+  }
+}
+
+//! The change of a grip's wrench by the point of a grip and turns about it: of the forces at its vertices, and of their
+//! arms where it turns itself.
+Eigen::Matrix<double, 6, 6> FabricResponse::wrenchChange(int of, int by, const double* forces) const {
+  Eigen::Matrix<double, 6, 6> change = Eigen::Matrix<double, 6, 6>::Zero();
+  const int turn_column = grips_[by].turn_column;
+  for (int vertex = 0; vertex < static_cast<int>(grip_.size()); ++vertex) {
+    if (grip_[vertex] != of) {
+      continue;
+    }
+    Eigen::Matrix<double, 3, 6> force = Eigen::Matrix<double, 3, 6>::Zero();
+    force.leftCols<3>() = forces_.block<3, 3>(3 * vertex, 3 * by);
+    if (turn_column >= 0) {
+      force.rightCols<3>() = forces_.block<3, 3>(3 * vertex, turn_column);
+    }
+    change.topRows<3>() += force;
+    change.bottomRows<3>() -= turning(arms_[vertex]) * force;  // arm x force
+    if (of == by) {
+      change.bottomRightCorner<3, 3>() += turning(vertexIn(forces, vertex)) * turning(arms_[vertex]);
+    }
+  }
+  return change;
 }
 
 }  // namespace pbd

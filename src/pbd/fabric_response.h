@@ -21,9 +21,18 @@ class FabricResponse {
   //! @param to           [grips x N x 3 x 3] d vertex / d grip's point; written only where the result is VALID
   ResponseStatus compute(const FabricConstraints& constraints, const double* positions, double* to);
 
-  //! The same by turns about the points of the grips that hold several vertices, from the last VALID compute().
-  //! @param to [grips x N x 3 x 3] m; zero for the others. @return false: there are no such grips
+  //! The same by turns about the points of the grips that hold several vertices.
+  //! @param to [grips x N x 3 x 3] m; zero for the others. @return false: there are no such grips, or the last
+  //! compute() was not VALID
   bool turns(double* to) const;
+
+  //! The derivative of the wrenches at the grips for the same shape, by the second derivatives between held vertices
+  //! and all others.
+  //! @param constraints, positions  those of the last compute()
+  //! @param forces                  [N x 3] N that the fabric exerts at its held vertices
+  //! @param to                      [grips x 6 x grips x 6] d (force, torque) / d (grip's point, turn)
+  //! @return false: the last compute() was not VALID
+  bool wrenches(const FabricConstraints& constraints, const double* positions, const double* forces, double* to);
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
@@ -37,12 +46,14 @@ class FabricResponse {
   void describeGrips(const std::vector<HeldPoint>& holds);
   void makePattern(const FabricConstraints& constraints);
   void assemble(const FabricConstraints& constraints, const double* positions);
-  void addSpring(const int* at, double spring, double rest_length, const double* positions);
-  void addFold(const HingeConstraint& hinge, double spring);
+  template <typename Add>
+  void forAllBlocks(const FabricConstraints& constraints, const double* positions, Add add) const;
   void add(int vertex, int other, const Eigen::Matrix3d& block);
   void addHeld(int row, int held, const Eigen::Matrix3d& block);
   bool solve();
   void write(double* to) const;
+  void addForceChange(int vertex, int other, const Eigen::Matrix3d& block);
+  Eigen::Matrix<double, 6, 6> wrenchChange(int of, int by, const double* forces) const;
 
   std::vector<int> free_;  // [N] place among the free vertices, or -1
   std::vector<int> grip_;  // [N] grip that holds the vertex, or -1
@@ -53,8 +64,10 @@ class FabricResponse {
   Sparse stiffness_;                    // K, N/m
   Eigen::MatrixXd right_;               // -K_h, N/m
   Eigen::MatrixXd solution_;
-  Eigen::MatrixXd moved_;  // [3 free x columns] the last solution that was stable
-  int missed_ = 0;         // calls since that
+  Eigen::MatrixXd moved_;   // [3 free x columns] the last solution that was stable
+  Eigen::MatrixXd forces_;  // [3 N x columns] change of the forces at held vertices, N/m
+  int missed_ = 0;          // calls since that
+  bool known_ = false;      // the last call was VALID
   Eigen::SimplicialLDLT<Sparse> solver_;
 };
 

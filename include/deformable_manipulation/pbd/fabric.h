@@ -61,6 +61,7 @@ class Fabric final : public Body {
 
   //! Of grips that hold several vertices; turns about a single one move nothing.
   bool turningResponse(double* to) const override;
+  bool wrenchResponse(double* to) const override;
   void layOut() override;
   void points(double* to) const override;
   Pose pose(int particle) const override;

@@ -63,19 +63,12 @@ def check_turning_leader(report: Report, leader, controller, knowledge) -> None:
 
 
 def _check_turning_fabric(report: Report, path, spec, turning, controller) -> None:
-    """Grips of a fabric turn it if they hold several vertices; its reactions are not known then."""
+    """Grips of a fabric turn it if they hold several vertices."""
     single = [agent.name for agent in turning if not agent.further_particles]
     if single:
         report.add(
             path,
             f"must be {FIXED}: a grip that holds one vertex of a {spec.type} cannot turn it: "
             f"{', '.join(single)}. Give it further_particles",
-            controller.orientation,
-        )
-    if controller.grip_force is not None:
-        report.add(
-            path,
-            f"must be {FIXED} with grip_force for a {spec.type}: how its forces follow turns is "
-            "not known",
             controller.orientation,
         )

@@ -102,7 +102,6 @@ def test_a_leader_turns_with_followers(turning, tmp_path):
         ("agents.helper.further_particles", [], "controller.orientation", "one vertex of a fabric"),
         ("agents.hand.further_particles", [], "controller.orientation", "cannot turn it: hand"),
         ("controller.jacobian", "perturbed_copies", "controller.orientation", "equilibrium"),
-        ("controller.grip_force", {"max_force": 9.0}, "controller.orientation", "grip_force"),
         (
             "controller.orientation",
             "fixed",
@@ -138,3 +137,12 @@ def test_a_leader_turns_with_followers(turning, tmp_path):
 def test_turns_that_cannot_be(turning, change, problems_of, key, value, where, expected):
     found = problems_of(change(turning, key, value))
     assert expected in found[where]
+
+
+def test_torque_is_limited_where_a_grip_holds_several_vertices(bars, change, problems_of, tmp_path):
+    limit = {"max_torque": 3.0}
+    change(bars, "controller.grip_torque", limit)
+    assert scenario_from_mapping(bars, tmp_path).controller.grip_torque.max_torque == 3.0
+    for agent in ("hand", "helper"):
+        change(bars, f"agents.{agent}.further_particles", [])
+    assert "a single one exerts no torque" in problems_of(bars)["controller.grip_torque"]

@@ -123,6 +123,39 @@ def test_the_response_is_the_derivative_of_the_meshs_equilibrium(scenario):
     np.testing.assert_allclose(response.sum(axis=0), np.tile(np.eye(3), (91, 1, 1)), atol=1e-9)
 
 
+def test_the_wrenches_change_as_the_forces_of_the_mesh_do(scenario):
+    """By moves and turns of both bars, from the second derivatives of the mesh's energy."""
+    simulation = make_simulation(scenario, copies=False)
+    response, turning = simulation.response(), simulation.turning_response()
+    found = simulation.wrench_response()
+    points, energy = simulation.points()[0], energy_of(scenario.object)
+    motions = np.concatenate((response, turning), axis=3).transpose(0, 3, 1, 2)  # [A, 6, P, 3]
+    hessian = energy.hessian(points, convex=False)
+    forces = -energy.gradient(points)
+    for by in range(2):
+        for axis in range(6):
+            motion = motions[by, axis]
+            change = -(hessian @ motion.ravel()).reshape(-1, 3)
+            for of, bar in enumerate(bars(scenario)):
+                places, swings = points[bar] - points[bar[0]], motion[bar] - motion[bar[0]]
+                torque = np.cross(places, change[bar]) + np.cross(swings, forces[bar])
+                expected = np.concatenate((change[bar].sum(axis=0), torque.sum(axis=0)))
+                # The forces of the simulation are those of its last substep.
+                np.testing.assert_allclose(found[of, :, by, axis], expected, rtol=1e-3, atol=0.02)
+    assert np.abs(found).max() > 10.0
+    np.testing.assert_allclose(found[:, :, :, :3].sum(axis=2), 0.0, atol=1e-6)
+
+
+def test_derivatives_are_not_told_where_there_is_no_response(scenario):
+    simulation = make_simulation(scenario, copies=False)
+    for agent in (None, 1, 0):
+        if agent is not None:
+            simulation.release(agent)
+            assert isinstance(simulation.response(), str)
+        assert simulation.turning_response() is None
+        assert simulation.wrench_response() is None
+
+
 def test_the_fabric_follows_a_turn_as_the_response_says(scenario):
     """Turned slowly by a small angle, and left to rest."""
     simulation = make_simulation(scenario, copies=False)
