@@ -54,7 +54,7 @@ class AgentSpec:
     hold: str = parameter(
         Choice("clamped", PINNED),
         "`clamped` keeps the particle's orientation, `pinned` leaves it free. There is no "
-        "difference for fabrics, whose particles are points.",
+        "difference for single vertices of fabrics, which are points.",
         default="clamped",
         allowed="`clamped` with `further_particles`",
     )

@@ -9,6 +9,8 @@ from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.scenario import load_scenario
 from deformable_manipulation.scenario.grips import held_points
 from deformable_manipulation.simulation.factory import make_simulation
+from deformable_manipulation.validation.fabric import FabricProperties, make_fabric, rectangle
+from deformable_manipulation.validation.references.elastica import solve_cantilever
 from deformable_manipulation.validation.references.mesh_equilibrium import MeshEnergy
 
 NAME = "fabric_clamp_bars"
@@ -233,3 +235,40 @@ def test_agents_that_cannot_hold_so_are_refused(scenario, hold, further, words):
     body = make_body(scenario.object)
     with pytest.raises(_pbd.ParameterError, match=words):
         _pbd.Simulation(body, agents, [], time_step=0.01, substeps=10)
+
+
+COLUMNS, ROWS, CELL, DENSITY = 13, 4, 0.025, 0.5  # of a strip along x [m, kg/m^2]
+
+
+def strip(columns, rigidity):
+    """A strip at rest whose first columns of vertices a grip holds level."""
+    size = (CELL * (COLUMNS - 1), CELL * (ROWS - 1))
+    mesh = rectangle(size, (COLUMNS, ROWS), alternate=True)
+    fabric = make_fabric(mesh, FabricProperties(DENSITY, 1e-5, 1.0 / rigidity))
+    held = [i for i in range(ROWS * COLUMNS) if i % COLUMNS < columns]
+    agent = ("hand", held[0], "clamped", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), held[1:])
+    simulation = _pbd.Simulation(fabric, [agent], [], time_step=0.01, substeps=40)
+    simulation.advance()
+    return simulation
+
+
+def test_two_columns_clamp_the_slope_as_theory_says():
+    """A cantilever, clamped in the middle of its first cells: its drop, and its weight's moment."""
+    length, width = CELL * (COLUMNS - 1.5), CELL * (ROWS - 1)
+    rigidity = DENSITY * 9.81 * length**3 / 8.0
+    simulation = strip(2, rigidity)
+    points = simulation.points()[0]
+    exact = solve_cantilever(length, rigidity * width, DENSITY * 9.81 * width)
+    drop = -points[COLUMNS - 1 :: COLUMNS, 2].mean()
+    assert drop == pytest.approx(-exact.positions(np.array([length]))[0, 1], rel=0.015)
+    force, torque = simulation.wrench(0)
+    weight = DENSITY * 9.81 * CELL * (COLUMNS - 1) * width
+    assert force[2] == pytest.approx(-weight, rel=0.01)
+    arms = points.reshape(ROWS, COLUMNS, 3).mean(axis=0)[:, 0]
+    arm = np.trapz(arms, dx=1.0) / (COLUMNS - 1)  # of the weight, from the grip
+    assert torque[1] == pytest.approx(weight * arm, rel=0.02)
+
+
+def test_one_column_leaves_the_slope_open():
+    points = strip(1, 0.01).points()[0]
+    assert points[COLUMNS - 1 :: COLUMNS, 2].max() < -0.29  # it hangs down
