@@ -8,6 +8,9 @@ namespace deformable_manipulation {
 namespace control {
 namespace {
 
+// Behind a leader at two thirds of the assistants' velocity, departures count from the clipped law.
+constexpr double FAST = 2.0 / 3.0;
+
 //! The section of the controller with barriers that demand h(displaced) >= 0 where they demand dh/dt >= -alpha(h).
 ParameterValue demandingPositions(const ControllerParameters& p) {
   ParameterValue::Mapping controller = *p.values.as<ParameterValue::Mapping>();
@@ -28,12 +31,13 @@ Team commandingAll(const ControllerParameters& p, double length) {
   return team;
 }
 
-//! The part of a displacement that the law pulls back, per axis: all of it within the velocity, nothing where it wants
-//! to be twice as fast as it can.
-Vector3 pullOf(const Vector3& nominal, double max_velocity) {
-  const auto excess = (nominal.cwiseAbs().array() - max_velocity) / std::max(max_velocity, 1e-9);
-  return (1.0 - excess).max(0.0).min(1.0);
+//! How far beyond the velocity the law is, per axis: 0 within it, 1 where it wants to be twice as fast.
+Vector3 saturationOf(const Vector3& law, double max_velocity) {
+  const auto excess = (law.cwiseAbs().array() - max_velocity) / std::max(max_velocity, 1e-9);
+  return excess.max(0.0).min(1.0);
 }
+
+Vector3 within(double most, const Vector3& velocity) { return velocity.cwiseMax(-most).cwiseMin(most); }
 
 //! The barriers' priorities after a first kind of rows, which is numbered after theirs.
 Priority afterFirst(const Priority& priority) {
@@ -63,7 +67,6 @@ void Horizon::setParameters(const ControllerParameters& p) {
   barriers_ = makeBarriers(p.barriers, demandingPositions(p), team_);
   const Eigen::VectorXd weights = p.horizon.weights.replicate(p.horizon.nodes * columns(), 1);
   filter_ = std::make_unique<SafetyFilter>(weights, afterFirst(p.priority), true);
-  reach_.setConstant(weights.size(), 2.0 * max_velocity_);
   zero_.setZero(weights.size());
   if (departures_.size() != weights.size()) {
     reset();
@@ -80,6 +83,9 @@ void Horizon::reset() {
 void Horizon::plan(const ObservationView& observation, const PredictedState& predicted,
                    const std::vector<Follower>& followers) {
   leader_forecast_.look(observation, predicted);
+  const double speed = leader_forecast_.fastest() / max_velocity_;
+  haste_ = std::min(1.0, speed);
+  clipping_ = std::min(1.0, speed / FAST);
   follow(predicted, followers);
   displace();
   hold(observation.agents);
@@ -89,32 +95,41 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   }
   forecast_->look(observation, held_, times_);
   rows_.clear(static_cast<int>(departures_.size()));
+  unhindered_ = true;
   for (int node = 0; node < parameters_.nodes; ++node) {
     addLimits(node, observation.time);
   }
-  addVelocities();
-  weigh();
-  departures_ += change_ * (filter_->filter(zero_, rows_, -reach_, reach_).velocity - departures_);
+  departures_ += change_ * ((unhindered_ ? zero_ : best()) - departures_);
 }
 
-//! What becomes of the assistants by the nominal law, within their velocity, and the last plan's departures from it.
+//! What becomes of the assistants by the last plan, and by the nominal law within their velocity alone.
 void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
   const std::vector<Vector3>& leader = leader_forecast_.positions();
   paths_.resize(columns());
+  free_.resize(departures_.size());
+  from_law_.resize(departures_.size());
   for (int column = 0; column < columns(); ++column) {
     const int agent = team_.commanded[column];
     Path& path = paths_[column];
     path.max_velocity = followers[agent].follows ? max_velocity_ : 0.0;
     path.positions.assign(1, predicted.positions[agent]);
     path.velocities.clear();
+    path.law.clear();
     path.pulls.clear();
+    Vector3 free = path.positions.front();
     for (int node = 0; node < parameters_.nodes; ++node) {
-      const Vector3 error = leader[node] + followers[agent].place - path.positions[node];
-      const Vector3 nominal = (leader[node + 1] - leader[node]) / interval_ + gain_ * error;
-      path.velocities.push_back(nominal.cwiseMax(-path.max_velocity).cwiseMin(path.max_velocity));
-      path.pulls.push_back(gain_ * pullOf(nominal, path.max_velocity));
-      const Vector3 velocity = path.velocities[node] + departures_.segment<3>(variable(node, column));
-      path.positions.push_back(path.positions[node] + interval_ * velocity);
+      const Vector3 ahead = (leader[node + 1] - leader[node]) / interval_;
+      const Vector3 goal = leader[node] + followers[agent].place;
+      const auto variables = variable(node, column);
+      const Vector3 law = ahead + gain_ * (goal - path.positions[node]);
+      const Vector3 clipped = within(path.max_velocity, law);
+      path.law.push_back(law + clipping_ * (clipped - law));
+      path.pulls.push_back(gain_ * (1.0 - clipping_ * saturationOf(law, path.max_velocity).array()));
+      path.velocities.push_back(within(path.max_velocity, Vector3(clipped + departures_.segment<3>(variables))));
+      path.positions.push_back(path.positions[node] + interval_ * path.velocities[node]);
+      from_law_.segment<3>(variables) = path.velocities[node] - path.law[node];
+      free += interval_ * within(path.max_velocity, ahead + gain_ * (goal - free));
+      free_.segment<3>(variables) = free - path.positions[node + 1];
     }
   }
 }
@@ -134,7 +149,7 @@ void Horizon::displace() {
       }
       for (int from = 0; from <= node; ++from) {
         displaced_.segment<3>(variable(node, column)) +=
-            path.kept[from * nodes + node].cwiseProduct(departures_.segment<3>(variable(from, column)));
+            path.kept[from * nodes + node].cwiseProduct(from_law_.segment<3>(variable(from, column)));
       }
     }
   }
@@ -174,6 +189,7 @@ void Horizon::addLimits(int node, double time) {
   const double scale = 1.0 / timeOf(node);  // rows of velocities, as the filter expects them
   for (int r = 0; r < node_rows_.size(); ++r) {
     const auto g = node_rows_.coefficients(r);
+    unhindered_ = unhindered_ && g.dot(free_.segment(node * width, width)) >= node_rows_.bound(r);
     const double bound = node_rows_.bound(r) + g.dot(displaced_.segment(node * width, width));
     auto row = rows_.add(node_rows_.kind(r), scale * bound);
     for (int column = 0; column < columns(); ++column) {
@@ -196,7 +212,7 @@ void Horizon::addVelocities() {
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
         const double pull = path.pulls[node][axis];
         const double before = node > 0 ? displaced_[variable(node - 1, column) + axis] : 0.0;
-        auto row = rows_.add(kind, -path.max_velocity - sign * (path.velocities[node][axis] + pull * before));
+        auto row = rows_.add(kind, -path.max_velocity - sign * (path.law[node][axis] + pull * before));
         row[variable(node, column) + axis] = sign;
         for (int from = 0; from < node; ++from) {
           const double kept = path.kept[from * parameters_.nodes + node - 1][axis];
@@ -207,10 +223,47 @@ void Horizon::addVelocities() {
   }
 }
 
+//! The plan of least cost that keeps the limits, as departures from the law within its velocity.
+const Eigen::VectorXd& Horizon::best() {
+  addVelocities();
+  weigh();
+  reach();
+  const Filtered& filtered = filter_->filter(zero_, rows_, lower_, upper_);
+  if (filtered.status == Status::FAILED) {
+    return zero_;
+  }
+  best_ = filtered.velocity;
+  for (int column = 0; column < columns(); ++column) {
+    const Path& path = paths_[column];
+    Vector3 displacement = Vector3::Zero();
+    for (int node = 0; node < parameters_.nodes; ++node) {
+      auto departure = best_.segment<3>(variable(node, column));
+      const Vector3 law = path.law[node] - path.pulls[node].cwiseProduct(displacement);
+      const Vector3 velocity = law + departure;
+      displacement += interval_ * (velocity - path.velocities[node]);
+      departure = velocity - within(path.max_velocity, law);
+    }
+  }
+  return best_;
+}
+
+//! Departures by up to twice the velocity from what the law asks for within it.
+void Horizon::reach() {
+  lower_.resize(departures_.size());
+  upper_.resize(departures_.size());
+  for (int node = 0; node < parameters_.nodes; ++node) {
+    for (int column = 0; column < columns(); ++column) {
+      const Path& path = paths_[column];
+      const Vector3 middle = within(path.max_velocity, path.law[node]) - path.law[node];
+      lower_.segment<3>(variable(node, column)) = middle.array() - 2.0 * max_velocity_;
+      upper_.segment<3>(variable(node, column)) = middle.array() + 2.0 * max_velocity_;
+    }
+  }
+}
+
 //! The faster the leader, the more it counts that there is a way back.
 void Horizon::weigh() {
-  const double fast = std::min(1.0, leader_forecast_.fastest() / max_velocity_);
-  const Vector3 weights = (1.0 - fast) * weights_at_rest_ + fast * parameters_.weights;
+  const Vector3 weights = (1.0 - haste_) * weights_at_rest_ + haste_ * parameters_.weights;
   filter_->setWeights(weights.replicate(parameters_.nodes * columns(), 1));
 }
 

@@ -1,6 +1,7 @@
 """Fits the parameters of a simulated rope to recordings of a real one."""
 
 import argparse
+import itertools
 import json
 import math
 import sys
@@ -20,18 +21,25 @@ from deformable_manipulation.commands.replay import held_points
 from deformable_manipulation.reading.errors import ScenarioError
 
 NAME = "identify"
-FITTED = (
-    "young_modulus",
-    "torsion_modulus",
-    "bending_retardation_time",
-    "drag_coefficient",
-    "damping",
-    "natural_curvature",
-    "aim",
-)
-USUAL = ("young_modulus", "bending_retardation_time", "aim")
-DESCRIPTION = """Fit a simulated rope or rod to recordings of a real one: bending stiffness over
-mass, damping, the curvature without load, and the angles at which the grippers hold it. Windows
+FITTED = {  # by the object's type
+    "rod": (
+        "young_modulus",
+        "torsion_modulus",
+        "bending_retardation_time",
+        "drag_coefficient",
+        "damping",
+        "natural_curvature",
+        "aim",
+    ),
+    "fabric": ("stretching_compliance", "bending_compliance", "damping"),
+}
+USUAL = {
+    "rod": ("young_modulus", "bending_retardation_time", "aim"),
+    "fabric": ("bending_compliance", "damping"),
+}
+DESCRIPTION = """Fit a simulated object to recordings of a real one. Of a rope or rod: bending
+stiffness over mass, damping, the curvature without load, and the angles at which the grippers
+hold it; of a fabric: compliances and damping. Windows
 of all recordings are replayed; a coarse grid comes first, then robust least squares. Prints
 values with standard deviations, what the data do not tell, and how well recordings are
 predicted that are left out of the fit. Writes object.yaml (a section object), report.md and
@@ -71,28 +79,19 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 def _identify(arguments, measured) -> int:
     from deformable_manipulation.campaign.workers import cores
     from deformable_manipulation.identification.identify import identify
-    from deformable_manipulation.identification.parameters import AIM, CURVATURE, Parameters
     from deformable_manipulation.identification.problem import windows_of
     from deformable_manipulation.identification.workers import worker_map
     from deformable_manipulation.replaying.measured_shapes import read_measured_shapes
-    from deformable_manipulation.replaying.replay import ReplayOptions, default_held
+    from deformable_manipulation.replaying.replay import ReplayOptions
 
     recordings = [read_measured_shapes(path) for path in arguments.recordings]
-    held = arguments.held or default_held(len(recordings[0].arc_lengths))
     options = ReplayOptions(
-        held=held,
+        held=arguments.held,
         gravity=measured.gravity,
         solver=measured.solver,
         substeps=measured.substeps,
     )
-    material = tuple(name for name in arguments.fit if name not in (AIM, CURVATURE))
-    grips = len(held) if AIM in arguments.fit else 0
-    curved = CURVATURE in arguments.fit
-    shape = measured.spec.natural_shape
-    if curved and shape is not None and shape.points:
-        fail(NAME, "object.natural_shape has points: --fit natural_curvature needs numbers")
-        return 1
-    parameters = Parameters(measured.spec, material, grips, curved)
+    parameters = _parameters(arguments, measured.spec)
     windows = windows_of(recordings, parameters, options, arguments.window)
     folder = writable_folder(arguments.output or Path("output/identification"))
     progress = ProgressDisplay(sys.stderr)
@@ -104,6 +103,32 @@ def _identify(arguments, measured) -> int:
         progress.close()
     _write(folder, found, arguments.recordings, len(windows))
     return 0
+
+
+def _parameters(arguments, spec):
+    """What is fitted to the object. Raises MeasuredShapesError."""
+    from deformable_manipulation.identification.material_parameters import MaterialParameters
+    from deformable_manipulation.identification.parameters import AIM, CURVATURE, Parameters
+    from deformable_manipulation.replaying.driven_rod import USUALLY_HELD
+    from deformable_manipulation.replaying.measured_shapes import MeasuredShapesError
+
+    fitted = arguments.fit or USUAL[spec.type]
+    others = [name for name in fitted if name not in FITTED[spec.type]]
+    if others:
+        raise MeasuredShapesError(
+            f"--fit {','.join(others)}: the object is a {spec.type}, of which "
+            f"{', '.join(FITTED[spec.type])} can be fitted"
+        )
+    material = tuple(name for name in fitted if name not in (AIM, CURVATURE))
+    if spec.type != "rod":
+        return MaterialParameters(spec, material)
+    shape = spec.natural_shape
+    if CURVATURE in fitted and shape is not None and shape.points:
+        raise MeasuredShapesError(
+            "object.natural_shape has points: --fit natural_curvature needs numbers"
+        )
+    grips = len(arguments.held or USUALLY_HELD) if AIM in fitted else 0
+    return Parameters(spec, material, grips, CURVATURE in fitted)
 
 
 def _write(folder: Path, found, recordings: Sequence[str], windows: int) -> None:
@@ -150,9 +175,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         "--fit",
         metavar="NAMES",
         type=_fitted,
-        default=list(USUAL),
-        help="what is fitted, separated by commas: {} (default: {})".format(
-            ", ".join(FITTED), ",".join(USUAL)
+        help="what is fitted, separated by commas: "
+        + "; ".join(
+            f"of a {kind} {', '.join(names)} (default: {','.join(USUAL[kind])})"
+            for kind, names in FITTED.items()
         ),
     )
     parser.add_argument(
@@ -190,10 +216,10 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
 
 def _fitted(text: str) -> List[str]:
     names = [name.strip() for name in text.split(",")]
-    unknown = [name for name in names if name not in FITTED]
-    if unknown or len(set(names)) < len(names):
+    known = list(dict.fromkeys(itertools.chain(*FITTED.values())))
+    if not set(names) <= set(known) or len(set(names)) < len(names):
         raise argparse.ArgumentTypeError(
-            f"'{text}' must be some of {', '.join(FITTED)}, separated by commas"
+            f"'{text}' must be some of {', '.join(known)}, separated by commas"
         )
     return names
 

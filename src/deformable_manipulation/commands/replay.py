@@ -18,16 +18,17 @@ from deformable_manipulation.commands.output_folder import writable_folder
 from deformable_manipulation.reading.errors import ScenarioError
 
 NAME = "replay"
-DESCRIPTION = """Drive the grips of a simulated rope or rod as those of a real one were, and compare
-the points that were measured with the same points of the simulation. Prints the mean error per
-coordinate, the mean and the largest distance, and the mean while the object was at rest and while
-it moved. Writes replay.png (shapes and distances over time), predicted.csv (in the format of the
-recording) and difference.json (the numbers)."""
+DESCRIPTION = """Drive the grips of a simulated rope or fabric as those of a real one were, and
+compare the points that were measured with the same points of the simulation. Prints the mean error
+per coordinate, the mean and the largest distance, and the mean while the object was at rest and
+while it moved. Writes replay.png (shapes and distances over time), predicted.csv (in the format of
+the recording) and difference.json (the numbers)."""
 EPILOG = """examples:
   replay swing.csv --object my_rope.yaml
   replay swing.csv --object my_rope.yaml --set object.damping=0 --set object.young_modulus=2e7
   replay swing.csv --object my_rope.yaml --held 0 --held 11,12    pinned, and clamped
   replay swing.csv --object my_rope.yaml --from 2 --to 7 --output out
+  replay shake.csv --object my_cloth.yaml --held 0 --held 4       a cloth, by two vertices
 
 The format of a recording is in docs/real_objects.md.
 
@@ -99,7 +100,7 @@ def _write(folder: Path, shapes, predicted, found) -> None:
 
     save_figure(plot_replay(shapes, predicted, found), folder / "replay.png")
     write_measured_shapes(
-        folder / "predicted.csv", MeasuredShapes(shapes.time, shapes.arc_lengths, predicted)
+        folder / "predicted.csv", MeasuredShapes(shapes.time, shapes.places, predicted)
     )
     text = json.dumps({name: _finite(value) for name, value in found.numbers.items()}, indent=2)
     (folder / "difference.json").write_text(text + "\n", encoding="utf-8")
@@ -126,8 +127,9 @@ def _parse(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         metavar="POINTS",
         type=held_points,
         action="append",
-        help="points that one gripper holds, counted from 0: two or more are clamped, one is "
-        "pinned; once per gripper (default: the first two, and the last two)",
+        help="points that one gripper holds, counted from 0: two or more of a rod are clamped, one "
+        "is pinned, and so are all of a fabric; once per gripper (default: the first two and the "
+        "last two of a rod)",
     )
     parser.add_argument(
         "--aim",

@@ -6,8 +6,10 @@ from typing import Dict, Iterator, List, Sequence, Tuple
 import yaml
 
 from deformable_manipulation.identification.identify import Identification
-from deformable_manipulation.identification.parameters import MATERIAL
+from deformable_manipulation.identification.material_parameters import RANGES
 from deformable_manipulation.markdown.table import millimetres, table
+from deformable_manipulation.objects.rod import RodSpec
+from deformable_manipulation.objects.spec import ObjectSpec
 
 _UNITS = {
     "young_modulus": "Pa",
@@ -15,6 +17,8 @@ _UNITS = {
     "bending_retardation_time": "s",
     "drag_coefficient": "",
     "damping": "1/s",
+    "stretching_compliance": "m/N",
+    "bending_compliance": "1/(N m)",
 }
 _VAGUE_FACTOR = 0.5  # standard deviation of a logarithm, from which on a value is not told
 _VAGUE_ANGLE = math.radians(5.0)
@@ -38,7 +42,7 @@ def _found(found: Identification) -> Iterator[Tuple[str, float, float, bool]]:
 
 
 def _value(name: str, number: float) -> str:
-    if name in MATERIAL:
+    if name in RANGES:
         return f"{math.exp(number):.4g} {_UNITS[name]}".strip()
     if name.startswith("natural"):
         return f"{number:.3f} 1/m"
@@ -53,17 +57,12 @@ def _spread(name: str, deviation: float, at_bound: bool) -> str:
     if name.startswith("natural"):
         return f"+- {deviation:.3f} 1/m"
     percent, degrees = 100.0 * deviation, math.degrees(deviation)
-    return f"+- {percent:.1f} %" if name in MATERIAL else f"+- {degrees:.2f} deg"
+    return f"+- {percent:.1f} %" if name in RANGES else f"+- {degrees:.2f} deg"
 
 
 def statements(found: Identification) -> Iterator[str]:
     """What to know before the values are used."""
-    spec = found.parameters.object_of(found.fit.vector)
-    yield (
-        "Shapes without forces tell the ratio of bending stiffness and mass only: "
-        f"E I / (rho A) = {spec.stiffness_over_mass:.4g} m^4/s^2. With another density, change "
-        "young_modulus in proportion."
-    )
+    yield _about_mass(found.parameters.object_of(found.fit.vector))
     for name, number, deviation, at_bound in _found(found):
         if at_bound:
             yield (
@@ -74,7 +73,7 @@ def statements(found: Identification) -> Iterator[str]:
             continue
         if math.isnan(deviation):
             continue
-        if name in MATERIAL and deviation > _VAGUE_FACTOR:
+        if name in RANGES and deviation > _VAGUE_FACTOR:
             low, high = (math.exp(number + sign * 2.0 * deviation) for sign in (-1, 1))
             unit = _UNITS[name]
             yield f"The data do not tell {name}: {low:.2g} to {high:.2g} {unit} suit as well."
@@ -83,7 +82,7 @@ def statements(found: Identification) -> Iterator[str]:
             yield f"The data do not tell the {name}: its deviation is {degrees:.0f} deg."
     if any(math.isnan(deviation) for deviation in found.fit.deviations):
         yield "Too few windows for standard deviations: record more, or use a shorter --window."
-    if "torsion_modulus" not in found.parameters.material:
+    if found.torsion is not None and "torsion_modulus" not in found.parameters.material:
         yield _about_torsion(found.torsion)
     if found.straight is not None:
         yield _about_curvature(found.straight)
@@ -91,6 +90,19 @@ def statements(found: Identification) -> Iterator[str]:
         yield "The search was stopped before it came to rest: start from object.yaml once more."
     if found.left_out is not None:
         yield _about_validation(*found.left_out)
+
+
+def _about_mass(spec: ObjectSpec) -> str:
+    if isinstance(spec, RodSpec):
+        return (
+            "Shapes without forces tell the ratio of bending stiffness and mass only: "
+            f"E I / (rho A) = {spec.stiffness_over_mass:.4g} m^4/s^2. With another density, change "
+            "young_modulus in proportion."
+        )
+    return (
+        "Shapes without forces tell the products of compliances and mass only. With another "
+        "density, change both compliances in inverse proportion."
+    )
 
 
 def _about_torsion(changes: Sequence[float]) -> str:

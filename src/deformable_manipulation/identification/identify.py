@@ -9,13 +9,17 @@ from typing import Callable, Dict, List, Optional, Sequence
 import numpy as np
 
 from deformable_manipulation.identification.least_squares import Fit, fit
+from deformable_manipulation.identification.material_parameters import MaterialParameters
 from deformable_manipulation.identification.parameters import Parameters
 from deformable_manipulation.identification.problem import Problem, Window
 
+_FACTORS = np.geomspace(1 / 30.0, 30.0, 7)
 _GRID = {
-    "young_modulus": np.geomspace(1 / 30.0, 30.0, 7),  # times what was given
+    "young_modulus": _FACTORS,  # times what was given
+    "bending_compliance": _FACTORS,  # likewise
     "bending_retardation_time": np.array((0.01, 0.05, 0.2)),  # s
 }
+_OF_GIVEN = ("young_modulus", "bending_compliance")
 _GRID_WINDOWS = 6
 _ITERATIONS = 8
 _REFINEMENTS = 2  # iterations of a fold, from the result of all
@@ -31,23 +35,23 @@ class Identification:
         fit: the vector and its deviations.
         errors: mean over the windows of the numbers of :class:`.Difference` [m].
         torsion: relative change of the mean distance with a third and three times the torsion
-            modulus.
+            modulus; None of fabrics.
         left_out: mean per coordinate [m] of recordings that were left out of the fit, and of those
             in it; None without cross-validation.
         straight: relative change of the mean distance if all else is fitted without the natural
             curvature; None if that was not fitted.
     """
 
-    parameters: Parameters
+    parameters: MaterialParameters
     fit: Fit
     errors: Dict[str, float]
-    torsion: Sequence[float]
+    torsion: Optional[Sequence[float]]
     left_out: Optional[Sequence[float]]
     straight: Optional[float] = None
 
 
 def identify(
-    parameters: Parameters,
+    parameters: MaterialParameters,
     windows: Sequence[Window],
     folds: int,
     progress: Callable[[float], None] = lambda fraction: None,
@@ -67,9 +71,12 @@ def identify(
     result = fit(problem, start, _ITERATIONS)
     count.advance_to(0.7)
     errors = _mean(problem.mean_errors(result.vector))
-    torsion = _torsion_matters(problem, result.vector)
+    torsion = straight = None
+    if isinstance(parameters, Parameters):
+        torsion = _torsion_matters(problem, parameters, result.vector)
+        if parameters.curved:
+            straight = _curvature_matters(problem, parameters, result.vector)
     left_out = _cross_validate(problem, result.vector, folds) if folds > 1 else None
-    straight = _curvature_matters(problem, result.vector) if parameters.curved else None
     progress(1.0)
     return Identification(parameters, result, errors, torsion, left_out, straight)
 
@@ -88,7 +95,7 @@ class _Counter:
         self._least = fraction
 
 
-def _planned(parameters: Parameters, windows, folds: int) -> int:
+def _planned(parameters: MaterialParameters, windows, folds: int) -> int:
     per_iteration = len(parameters.names) + 2
     return 25 + _ITERATIONS * per_iteration + folds * (_REFINEMENTS + 1) * per_iteration
 
@@ -97,12 +104,13 @@ def _best_of_grid(problem: Problem) -> np.ndarray:
     """The best vector of a coarse grid: from afar, least squares get stuck."""
     parameters = problem.parameters
     few = problem.subset(_spread(problem.windows, _GRID_WINDOWS))
-    best, least = parameters.start(), math.inf
+    start = best = parameters.start()
+    least = math.inf
     keys = [key for key in parameters.material if key in _GRID]
     for values in itertools.product(*(_GRID[key] for key in keys)):
-        vector = parameters.start()
+        vector = start
         for key, value in zip(keys, values):
-            given = parameters.spec.young_modulus if key == "young_modulus" else 1.0
+            given = math.exp(start[parameters.material.index(key)]) if key in _OF_GIVEN else 1.0
             vector = parameters.with_value(vector, key, given * value)
         cost = np.mean(np.abs(np.concatenate(few.residuals(parameters.bounded(vector)))))
         if cost < least:
@@ -128,23 +136,23 @@ def _mean(numbers: Sequence[Dict[str, float]]) -> Dict[str, float]:
     return found
 
 
-def _torsion_matters(problem: Problem, vector: np.ndarray) -> List[float]:
+def _torsion_matters(problem: Problem, parameters: Parameters, vector: np.ndarray) -> List[float]:
     """Relative change of the mean distance in some windows."""
-    spec = problem.parameters.spec
+    spec = parameters.spec
     few = problem.subset(_spread(problem.windows, _GRID_WINDOWS))
     distances = []
     for factor in (1.0, 1.0 / _TORSION_FACTOR, _TORSION_FACTOR):
         other = dataclasses.replace(spec, torsion_modulus=factor * spec.torsion_modulus)
-        few.parameters = dataclasses.replace(problem.parameters, spec=other)
+        few.parameters = dataclasses.replace(parameters, spec=other)
         distances.append(_mean(few.mean_errors(vector))["mean_distance"])
     return [distance / distances[0] - 1.0 for distance in distances[1:]]
 
 
-def _curvature_matters(problem: Problem, vector: np.ndarray) -> float:
+def _curvature_matters(problem: Problem, parameters: Parameters, vector: np.ndarray) -> float:
     """Relative change of the mean distance without the natural curvature, all else fitted anew."""
     curved = _mean(problem.mean_errors(vector))["mean_distance"]
     straight = problem.subset(problem.windows)
-    straight.parameters, others = problem.parameters.straight(vector)
+    straight.parameters, others = parameters.straight(vector)
     if others.size:
         others = fit(straight, others, _ITERATIONS).vector
     return _mean(straight.mean_errors(others))["mean_distance"] / curved - 1.0

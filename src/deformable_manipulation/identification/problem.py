@@ -7,7 +7,7 @@ from typing import Callable, Dict, List, Sequence
 import numpy as np
 
 from deformable_manipulation._pbd import NonFiniteState
-from deformable_manipulation.identification.parameters import Parameters
+from deformable_manipulation.identification.material_parameters import MaterialParameters
 from deformable_manipulation.replaying.difference import difference
 from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, MeasuredShapesError
 from deformable_manipulation.replaying.replay import Replay, ReplayOptions
@@ -28,7 +28,7 @@ class Window:
     recording: int
     replay: Replay
 
-    def residuals(self, parameters: Parameters, vector: np.ndarray) -> np.ndarray:
+    def residuals(self, parameters: MaterialParameters, vector: np.ndarray) -> np.ndarray:
         """Deviations (R,) [m] of seen points that no grip holds, at some of the times."""
         shapes = self.replay.shapes
         try:
@@ -38,7 +38,7 @@ class Window:
         error = (predicted - shapes.points)[self._frames()][:, self._free_points()]
         return error[np.isfinite(error)]
 
-    def errors(self, parameters: Parameters, vector: np.ndarray) -> Dict[str, float]:
+    def errors(self, parameters: MaterialParameters, vector: np.ndarray) -> Dict[str, float]:
         """Numbers of :class:`.Difference`."""
         spec, aim = parameters.object_of(vector), parameters.aim_of(vector)
         try:
@@ -52,7 +52,7 @@ class Window:
 
     def _free_points(self) -> List[int]:
         held = {number for numbers in self.replay.held for number in numbers}
-        return [i for i in range(len(self.replay.shapes.arc_lengths)) if i not in held]
+        return [i for i in range(len(self.replay.shapes.places)) if i not in held]
 
 
 class Problem:
@@ -67,7 +67,7 @@ class Problem:
 
     def __init__(
         self,
-        parameters: Parameters,
+        parameters: MaterialParameters,
         windows: Sequence[Window],
         tell: Callable[[], None] = lambda: None,
         each: Callable = map,
@@ -93,17 +93,17 @@ class Problem:
 
 
 # The window last, and at the top level, so that processes can be sent the calls.
-def _residuals(parameters: Parameters, vector: np.ndarray, window: Window) -> np.ndarray:
+def _residuals(parameters: MaterialParameters, vector: np.ndarray, window: Window) -> np.ndarray:
     return window.residuals(parameters, vector)
 
 
-def _errors(parameters: Parameters, vector: np.ndarray, window: Window) -> Dict[str, float]:
+def _errors(parameters: MaterialParameters, vector: np.ndarray, window: Window) -> Dict[str, float]:
     return window.errors(parameters, vector)
 
 
 def windows_of(
     recordings: Sequence[MeasuredShapes],
-    parameters: Parameters,
+    parameters: MaterialParameters,
     options: ReplayOptions,
     length: float,
 ) -> List[Window]:

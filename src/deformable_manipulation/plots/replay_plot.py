@@ -19,7 +19,9 @@ _TIMES = 4
 
 
 def plot_replay(shapes: MeasuredShapes, predicted: np.ndarray, found: Difference) -> Figure:
-    """Draw measured points (marks) and predicted ones (lines), seen from the widest side.
+    """Draw measured points (dots) and predicted ones, seen from the widest side.
+
+    Predicted points are lines along a rod, and crosses on a fabric.
 
     predicted: (T, M, 3) m.
     """
@@ -33,15 +35,16 @@ def plot_replay(shapes: MeasuredShapes, predicted: np.ndarray, found: Difference
 
 def _draw_shapes(axes, shapes, predicted) -> None:
     across = _widest_direction(predicted)
+    marks, name = ("-", "lines") if shapes.places.ndim == 1 else ("x", "crosses")
     frames = np.linspace(0, len(shapes.time) - 1, _TIMES).astype(int)
     for number, frame in enumerate(frames):
         colour = colour_of(number)
-        for points, style in ((shapes.points, "o"), (predicted, "-")):
+        for points, style in ((shapes.points, "o"), (predicted, marks)):
             along, up = points[frame] @ across, points[frame, :, 2]
-            label = f"{shapes.time[frame]:.1f} s" if style == "-" else None
+            label = f"{shapes.time[frame]:.1f} s" if style == marks else None
             axes.plot(along, up, style, color=colour, markersize=2.5, label=label)
     axes.set(xlabel="horizontal [m]", ylabel="z [m]", aspect="equal", adjustable="datalim")
-    _put_legend_above(axes, "marks measured, lines predicted")
+    _put_legend_above(axes, f"dots measured, {name} predicted")
 
 
 def _widest_direction(points: np.ndarray) -> np.ndarray:

@@ -52,7 +52,7 @@ def grips_of(
     grips = []
     for numbers in held:
         first, last = numbers[0], numbers[-1]
-        centre = 0.5 * (shapes.arc_lengths[first] + shapes.arc_lengths[last])
+        centre = 0.5 * (shapes.places[first] + shapes.places[last])
         particle = int(np.clip(centre / length * segments, 0, segments - 1))
         if any(grip.particle == particle for grip in grips):
             raise ValueError(f"two grippers hold segment {particle}: use more segments")
@@ -68,7 +68,7 @@ def grips_of(
                 f"points {first} and {last} of a gripper are at the same place at {time:g} s"
             )
         tangents /= lengths
-        beyond = (particle + 0.5) * length / segments - shapes.arc_lengths[first]
+        beyond = (particle + 0.5) * length / segments - shapes.places[first]
         positions = points[:, first] + beyond * tangents
         orientations = _carried(frames[first], tangents)
         grips.append(Grip(particle, "clamped", positions, orientations))

@@ -5,7 +5,7 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator, List, Sequence, Union
+from typing import Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -25,18 +25,19 @@ class MeasuredShapes:
 
     Attributes:
         time: (T,) s, increasing.
-        arc_lengths: (M,) m from the first end of the undeformed object, increasing.
+        places: of the points on the undeformed object. On a rod (M,) m from its first end,
+            increasing; on a fabric (M, 2) or (M, 3), coordinates [m] of its mesh.
         points: (T, M, 3) m in a frame whose z axis points up; NaN where a point was not seen.
     """
 
     time: np.ndarray
-    arc_lengths: np.ndarray
+    places: np.ndarray
     points: np.ndarray
 
     def between(self, start: float, end: float) -> "MeasuredShapes":
         """The part from a time to another [s], both included."""
         inside = (self.time >= start - 1e-9) & (self.time <= end + 1e-9)
-        return MeasuredShapes(self.time[inside], self.arc_lengths, self.points[inside])
+        return MeasuredShapes(self.time[inside], self.places, self.points[inside])
 
     def without_gaps(self) -> np.ndarray:
         """The points (T, M, 3) with those not seen interpolated over time.
@@ -45,11 +46,11 @@ class MeasuredShapes:
             MeasuredShapesError: a point was never seen.
         """
         filled = self.points.copy()
-        for point in range(len(self.arc_lengths)):
+        for point, place in enumerate(self.places):
             seen = np.isfinite(self.points[:, point]).all(axis=1)
             if not seen.any():
                 raise MeasuredShapesError(
-                    f"the point at {self.arc_lengths[point]:g} m was never seen: remove its columns"
+                    f"the point at {_place_text(place)} m was never seen: remove its columns"
                 )
             for axis in range(3):
                 filled[:, point, axis] = np.interp(
@@ -79,14 +80,14 @@ def read_measured_shapes(path: Union[str, Path]) -> MeasuredShapes:
     mistakes += _time_mistakes(numbers[:, 0])
     if mistakes:
         raise _error(path, mistakes)
-    arc_lengths = np.array([float(name.split("@")[1]) for name in rows[0][1::3]])
-    points = numbers[:, 1:].reshape(len(numbers), len(arc_lengths), 3)
-    return MeasuredShapes(numbers[:, 0], arc_lengths, points)
+    places = np.array([_place(rows[0][first : first + 3]) for first in range(1, len(rows[0]), 3)])
+    points = numbers[:, 1:].reshape(len(numbers), len(places), 3)
+    return MeasuredShapes(numbers[:, 0], places[:, 0] if places.shape[1] == 1 else places, points)
 
 
 def write_measured_shapes(path: Union[str, Path], shapes: MeasuredShapes) -> None:
     """Write a CSV file that :func:`read_measured_shapes` reads. Raises OSError."""
-    names = [f"{axis}@{arc_length:.6g}" for arc_length in shapes.arc_lengths for axis in "xyz"]
+    names = [f"{axis}@{_place_text(place)}" for place in shapes.places for axis in "xyz"]
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["time", *names])
@@ -113,29 +114,52 @@ def _header_mistakes(names: Sequence[str]) -> Iterator[str]:
             f"has {len(names)} columns; they must be time and three for each of two or more points"
         )
         return
-    before = -math.inf
+    places = []
     for first in range(1, len(names), 3):
-        arc_length = _arc_length(names[first : first + 3])
-        if arc_length is None:
+        place = _place(names[first : first + 3])
+        if place is None:
             yield (
                 f"columns {first + 1} to {first + 3} must be named x@S, y@S and z@S with the arc "
-                f"length S [m] of the point, not {', '.join(names[first : first + 3])}"
+                "length S [m] of a rod's point, or the coordinates S = X/Y [m] of a fabric's, not "
+                f"{', '.join(names[first : first + 3])}"
             )
-        elif not arc_length > before:
-            yield f"the arc length {arc_length:g} m of column {first + 1} is not more than the last"
         else:
-            before = arc_length
+            places.append((first + 1, place))
+    yield from _place_mistakes(places)
 
 
-def _arc_length(names: Sequence[str]):
+def _place_mistakes(places: Sequence[Tuple[int, Tuple[float, ...]]]) -> Iterator[str]:
+    """Of places with the numbers of their columns."""
+    for (_, before), (column, place) in zip(places, places[1:]):
+        if len(place) != len(before):
+            yield (
+                f"column {column} has {len(place)} coordinates, the point before {len(before)}: "
+                "give one for a rod, two or three for a fabric, throughout"
+            )
+        elif len(place) == 1 and not place > before:
+            yield f"the arc length {place[0]:g} m of column {column} is not more than the last"
+    known: Dict[Tuple[float, ...], int] = {}
+    for column, place in places:
+        if len(place) > 1 and place in known:
+            yield f"column {column} is at the place of column {known[place]}, {_place_text(place)}"
+        known.setdefault(place, column)
+
+
+def _place(names: Sequence[str]) -> Optional[Tuple[float, ...]]:
     """Of the three columns of a point [m]; None if they are not those of one."""
     parts = [_COLUMN.findall(name.strip()) for name in names]
     if [part[0][0] for part in parts if part] != ["x", "y", "z"]:
         return None
     if len({part[0][1] for part in parts}) > 1:
         return None
-    value = _number(parts[0][0][1])
-    return value if value is not None and value >= 0.0 else None
+    numbers = tuple(_number(text) for text in parts[0][0][1].split("/"))
+    if len(numbers) > 3 or None in numbers:
+        return None
+    return numbers if len(numbers) > 1 or numbers[0] >= 0.0 else None
+
+
+def _place_text(place) -> str:
+    return "/".join(f"{number:.6g}" for number in np.atleast_1d(place))
 
 
 def _number(text: str):

@@ -5,9 +5,9 @@ from typing import Iterable, Optional, Sequence
 
 from deformable_manipulation.objects.body import GRAVITY, JOINT_SOLVER
 from deformable_manipulation.objects.kinds import read_object
-from deformable_manipulation.objects.rod import RodSpec
+from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.reading.document import read_document
-from deformable_manipulation.reading.errors import ScenarioError, show
+from deformable_manipulation.reading.errors import ScenarioError
 from deformable_manipulation.reading.overrides import Override, apply_overrides
 from deformable_manipulation.reading.readers import Node, Report, Unreadable
 from deformable_manipulation.scenario.files import find_scenario
@@ -20,7 +20,7 @@ _UNUSED = {"duration": 1.0}  # demanded of a scenario, not needed here
 class MeasuredObject:
     """An object, and its simulation where the file has a section ``simulation``."""
 
-    spec: RodSpec
+    spec: ObjectSpec
     gravity: Sequence[float] = GRAVITY
     solver: str = JOINT_SOLVER
     substeps: Optional[int] = None
@@ -59,9 +59,6 @@ def load_object(path_or_name: str, overrides: Iterable[Override] = ()) -> Measur
 
 def _read(root: Node, raw: dict) -> MeasuredObject:
     spec = read_object(root.child("object", raw["object"]))
-    if not isinstance(spec, RodSpec):
-        root.report.add(("object", "type"), "must be rod to be replayed", show(spec.type))
-        raise Unreadable
     if "simulation" not in raw:
         return MeasuredObject(spec)
     section = raw["simulation"]

@@ -1,20 +1,22 @@
-"""A simulated rod, driven as a recorded one was."""
+"""A simulated object, driven as a recorded one was."""
 
 import math
 from dataclasses import dataclass, field
 from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from deformable_manipulation.objects.body import GRAVITY, JOINT_SOLVER, make_body
+from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.objects.rod import RodSpec
-from deformable_manipulation.replaying.grips import Grip, grips_of
+from deformable_manipulation.objects.spec import ObjectSpec
+from deformable_manipulation.replaying.driven_fabric import DrivenFabric
+from deformable_manipulation.replaying.driven_rod import DrivenRod
+from deformable_manipulation.replaying.grips import Grip
 from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, MeasuredShapesError
 
 _USUAL_STEP = 0.01  # s
 _FRAMES_OF_VELOCITY = 5
-_LENGTH_TOLERANCE = 1.001
 _LONGEST_STEP = 0.1  # s, of one call: in between, the command can be interrupted
 _LONGEST_GAP = 60.0  # s, between two shapes
 
@@ -24,13 +26,14 @@ class ReplayOptions:
     """How a recording is replayed.
 
     Attributes:
-        held: for each gripper the points that it holds; None: the first two and the last two.
+        held: for each gripper the points that it holds; None: the first two and the last two of
+            a rod.
         start: ``measured``, in the first shape with its velocities; ``settled``, at rest between
             the grips.
         gravity: (3,) m/s^2.
         solver: of the joints.
         substeps: per 10 ms; None: as many as suit the object.
-        aim: for each gripper the angles (2,) [rad] at which it holds the object.
+        aim: for each gripper the angles (2,) [rad] at which it holds a rod.
     """
 
     held: Optional[Sequence[Tuple[int, ...]]] = None
@@ -48,108 +51,80 @@ class Replay:
         MeasuredShapesError: the recording does not fit the object.
     """
 
-    def __init__(self, spec: RodSpec, shapes: MeasuredShapes, options: ReplayOptions):
+    def __init__(self, spec: ObjectSpec, shapes: MeasuredShapes, options: ReplayOptions):
         self.shapes = shapes
         self.options = options
-        _check(spec, shapes, options)
-        self.held = options.held or default_held(len(shapes.arc_lengths))
-        try:
-            self.grips = grips_of(shapes, self.held, spec.length, spec.segments)
-        except ValueError as error:
-            raise MeasuredShapesError(str(error)) from error
-        self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
+        _check(shapes, options)
+        self._driven = _driven(spec, shapes, options.held or ())
+        self.held = self._driven.held
+        self.grips = self._driven.grips
+        _check_aim(spec, self.held, options)
         self._start = self._first_state()
 
-    def run(self, spec: RodSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
+    def run(self, spec: ObjectSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
         """Where the object should have been.
 
         Args:
-            spec: of the same length and number of segments.
+            spec: of the same size and number of particles.
             aim: in place of that of the options.
 
         Returns:
             The measured points (T, M, 3) [m] as simulated.
         """
         grips = self._aimed(self.options.aim if aim is None else aim)
+        usual = self._usual_substeps(spec)
         body = make_body(spec, self.options.gravity, self.options.solver)
         for grip in grips:
             body.hold(grip.particle, grip.hold, grip.positions[0], grip.orientations[0])
         body.set_state(*self._start)
         if self.options.start == "settled":
-            body.settle(_USUAL_STEP, self.substeps(spec, _USUAL_STEP))
+            body.settle(_USUAL_STEP, usual)
         predicted = np.empty_like(self.shapes.points)
-        predicted[0] = self._points_of(body)
+        predicted[0] = self._driven.measured(body.points()[0])
         for frame, step in enumerate(np.diff(self.shapes.time), start=1):
             for grip in grips:
                 body.move_to(grip.particle, grip.positions[frame], grip.orientations[frame], step)
             pieces = max(1, math.ceil(step / _LONGEST_STEP - 1e-6))
             for _ in range(pieces):
-                body.step(step / pieces, self.substeps(spec, step / pieces))
-            predicted[frame] = self._points_of(body)
+                body.step(step / pieces, _substeps(usual, step / pieces))
+            predicted[frame] = self._driven.measured(body.points()[0])
         return predicted
 
-    def substeps(self, spec: RodSpec, step: float) -> int:
-        """Substeps in a step [s] between two recorded shapes."""
-        usual = self.options.substeps or spec.substeps(_USUAL_STEP)
-        return max(1, math.ceil(step / _USUAL_STEP * usual - 1e-6))
+    def _usual_substeps(self, spec: ObjectSpec) -> int:
+        return self.options.substeps or spec.substeps(_USUAL_STEP)
 
-    def softness(self, spec: RodSpec) -> str:
+    def softness(self, spec: ObjectSpec) -> str:
         """What the substeps cannot keep of the material, as sentences."""
         body = make_body(spec, self.options.gravity, self.options.solver)
         step = float(np.median(np.diff(self.shapes.time)))
-        return body.softness(step, self.substeps(spec, step))
+        return body.softness(step, _substeps(self._usual_substeps(spec), step))
 
     def _aimed(self, aim) -> List[Grip]:
         return [grip.aimed(angles) for grip, angles in zip(self.grips, aim)] if aim else self.grips
 
     def _first_state(self) -> Tuple[np.ndarray, np.ndarray]:
-        """Ends of the segments (N + 1, 3) [m] and their velocities [m/s], by splines."""
+        """Points (P, 3) [m] of the object and their velocities [m/s], as the measured ones tell."""
         points = self.shapes.without_gaps()[:_FRAMES_OF_VELOCITY]
         time = self.shapes.time[: len(points)] - self.shapes.time[0]
         slopes = np.polyfit(time, points.reshape(len(points), -1), 1)[0]
         velocities = slopes.reshape(points[0].shape)
-        return self._along(points[0]), self._along(velocities)
-
-    def _along(self, values: np.ndarray) -> np.ndarray:
-        """Values (M, 3) at the measured points, taken to the ends of the segments."""
-        if len(values) == 2:  # a straight line, beyond both points, too
-            first, last = self.shapes.arc_lengths
-            return values[0] + np.outer(
-                (self._ends - first) / (last - first), values[1] - values[0]
-            )
-        spline = CubicSpline(self.shapes.arc_lengths, values, bc_type="natural")
-        inside = np.clip(self._ends, *self.shapes.arc_lengths[[0, -1]])
-        return spline(inside) + (self._ends - inside)[:, None] * spline(inside, 1)
-
-    def _points_of(self, body) -> np.ndarray:
-        ends = body.points()[0]
-        arc_lengths = self.shapes.arc_lengths
-        return np.stack([np.interp(arc_lengths, self._ends, line) for line in ends.T], axis=1)
+        return self._driven.spread(points[0]), self._driven.spread(velocities)
 
 
-def default_held(points: int) -> List[Tuple[int, ...]]:
-    """A gripper at each end holds two points."""
-    return [(0, 1), (points - 2, points - 1)]
+def _driven(spec: ObjectSpec, shapes: MeasuredShapes, held: Sequence[Tuple[int, ...]]):
+    if isinstance(spec, RodSpec):
+        return DrivenRod(spec, shapes, held)
+    assert isinstance(spec, FabricSpec)
+    return DrivenFabric(spec, shapes, held)
 
 
-def _check(spec: RodSpec, shapes: MeasuredShapes, options: ReplayOptions) -> None:
-    mistakes = []
-    last = shapes.arc_lengths[-1]
-    if last > _LENGTH_TOLERANCE * spec.length:
-        mistakes.append(
-            f"the last point is at {last:g} m, but the object is {spec.length:g} m long: "
-            "correct object.length or the arc lengths"
-        )
-    count = len(shapes.arc_lengths)
-    if options.held is None and count < 5:
-        mistakes.append(
-            f"has {count} points: the default, that grippers hold the first two and the last two, "
-            "needs five; say which are held"
-        )
-    held = options.held or default_held(count)
-    if options.aim and len(options.aim) != len(held):
-        mistakes.append(f"{len(held)} grippers hold it, but {len(options.aim)} aims are given")
-    mistakes += _held_mistakes(options.held or (), count)
+def _substeps(usual: int, step: float) -> int:
+    """Substeps in a step [s] between two recorded shapes, from those in 10 ms."""
+    return max(1, math.ceil(step / _USUAL_STEP * usual - 1e-6))
+
+
+def _check(shapes: MeasuredShapes, options: ReplayOptions) -> None:
+    mistakes = list(_held_mistakes(options.held or (), len(shapes.places)))
     gaps = np.diff(shapes.time)
     if len(gaps) and gaps.max() > _LONGEST_GAP:
         before = int(gaps.argmax())
@@ -159,6 +134,15 @@ def _check(spec: RodSpec, shapes: MeasuredShapes, options: ReplayOptions) -> Non
         )
     if mistakes:
         raise MeasuredShapesError("\n".join(mistakes))
+
+
+def _check_aim(spec: ObjectSpec, held: Sequence[Tuple[int, ...]], options: ReplayOptions) -> None:
+    if options.aim and not isinstance(spec, RodSpec):
+        raise MeasuredShapesError("aims are given, but a gripper pins a fabric: leave out --aim")
+    if options.aim and len(options.aim) != len(held):
+        raise MeasuredShapesError(
+            f"{len(held)} grippers hold it, but {len(options.aim)} aims are given"
+        )
 
 
 def _held_mistakes(held: Sequence[Tuple[int, ...]], count: int) -> Iterator[str]:

@@ -54,7 +54,7 @@ def test_time_in_which_nothing_was_measured_is_no_window(recording):
     """Of a pause of a million windows, none is looked at."""
     time = np.concatenate((recording.time, recording.time + 1e6))
     points = np.concatenate((recording.points, recording.points))
-    paused = MeasuredShapes(time, recording.arc_lengths, points)
+    paused = MeasuredShapes(time, recording.places, points)
     windows = windows_of([paused], parameters_of("young_modulus"), OPTIONS, 0.5)
     assert [round(each.replay.shapes.time[0], 2) for each in windows[:3]] == [0.0, 0.5, 1.0]
     assert 4 <= len(windows) <= 6
@@ -80,7 +80,7 @@ def test_leaps_of_a_few_points_do_not_matter(recording):
     points = recording.points.copy()
     points[::7, 4] += 0.3
     points[50:60, 3] = np.nan
-    broken = MeasuredShapes(recording.time, recording.arc_lengths, points)
+    broken = MeasuredShapes(recording.time, recording.places, points)
     parameters = parameters_of("young_modulus")
     spec = dataclasses.replace(GUESS, bending_retardation_time=0.05)
     parameters = dataclasses.replace(parameters, spec=spec)
@@ -93,7 +93,7 @@ def test_the_aim_of_a_grip_is_found(recording):
     parameters = Parameters(spec, (), 2)
     window = windows_of([recording], parameters, OPTIONS, 1.49)[0]
     turned = window.replay.run(spec, [(0.1, 0.0), (0.0, -0.05)])
-    aimed = MeasuredShapes(recording.time, recording.arc_lengths, turned)
+    aimed = MeasuredShapes(recording.time, recording.places, turned)
     # The held points are those of the recording: the grips move as before.
     held = recording.points[:, [0, 1, -2, -1]]
     aimed.points[:, [0, 1, -2, -1]] = held
@@ -129,7 +129,7 @@ class TestCurvature:
         window = windows_of([recording], Parameters(ROPE, (), 0), self.options, 1.49)[0]
         points = window.replay.run(spec)
         points[:, [0, 1, 8]] = recording.points[: len(points), [0, 1, 8]]  # grips move as before
-        shapes = MeasuredShapes(window.replay.shapes.time, recording.arc_lengths, points)
+        shapes = MeasuredShapes(window.replay.shapes.time, recording.places, points)
         parameters = Parameters(ROPE, (), 0, curved=True)
         return identify(parameters, windows_of([shapes], parameters, self.options, 1.49), 0)
 
@@ -190,7 +190,7 @@ def test_a_value_at_the_bound_of_the_search_is_no_result():
 
 
 def test_the_command_names_what_can_be_fitted():
-    assert FITTED == (*MATERIAL, CURVATURE, AIM)
+    assert FITTED["rod"] == (*MATERIAL, CURVATURE, AIM)
 
 
 class TestCommand:

@@ -27,7 +27,7 @@ def test_what_is_written_is_read(tmp_path):
     write_measured_shapes(path, shapes)
     found = read_measured_shapes(path)
     np.testing.assert_array_equal(found.time, shapes.time)
-    np.testing.assert_array_equal(found.arc_lengths, shapes.arc_lengths)
+    np.testing.assert_array_equal(found.places, shapes.places)
     np.testing.assert_array_equal(found.points, points)
 
 

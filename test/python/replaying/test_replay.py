@@ -42,20 +42,20 @@ def test_another_rope_is_not(shapes):
 def test_points_that_were_not_seen_are_left_out(shapes):
     points = shapes.points.copy()
     points[40:60, 3] = np.nan
-    some = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+    some = MeasuredShapes(shapes.time, shapes.places, points)
     assert error_of(ROPE, some, start="settled")["worst_distance"] < 1e-4
 
 
 def test_a_recording_may_have_gaps_in_time(shapes):
     kept = np.r_[0:50, 55:150]
-    some = MeasuredShapes(shapes.time[kept], shapes.arc_lengths, shapes.points[kept])
+    some = MeasuredShapes(shapes.time[kept], shapes.places, shapes.points[kept])
     assert error_of(ROPE, some, start="settled")["mean_distance"] < 2e-3
 
 
 def paused(shapes, pause):
     """A recording whose second half was measured after a pause [s]."""
     time = shapes.time + np.where(np.arange(len(shapes.time)) < 75, 0.0, pause)
-    return MeasuredShapes(time, shapes.arc_lengths, shapes.points)
+    return MeasuredShapes(time, shapes.places, shapes.points)
 
 
 def test_a_long_gap_is_replayed_in_short_steps(shapes):
@@ -106,7 +106,7 @@ def test_rest_is_told_from_motion(shapes):
     calm = calm_frames(shapes)
     assert not calm[:49].any()
     assert not calm[60:].any()
-    quiet = MeasuredShapes(shapes.time, shapes.arc_lengths, 0 * shapes.points)
+    quiet = MeasuredShapes(shapes.time, shapes.places, 0 * shapes.points)
     assert calm_frames(quiet)[51:].all()
 
 
@@ -124,7 +124,7 @@ def test_wrong_grips_are_refused(shapes, options, mistake):
 
 
 def test_two_points_make_a_straight_rope(shapes):
-    few = MeasuredShapes(shapes.time, shapes.arc_lengths[[0, 4]], shapes.points[:, [0, 4]])
+    few = MeasuredShapes(shapes.time, shapes.places[[0, 4]], shapes.points[:, [0, 4]])
     replay = Replay(ROPE, few, ReplayOptions(held=((0,), (1,))))
     start = replay._start[0]
     assert np.linalg.norm(start[-1] - few.points[0, 1]) > 0.3  # it goes on beyond the last point
@@ -136,7 +136,7 @@ def test_points_at_the_same_place_are_refused(shapes):
     for frame, mistake in ((0, "points 7 and 8 are at .* first shape"), (60, "at 0.6 s")):
         points = shapes.points.copy()
         points[frame, 8] = points[frame, 7]
-        same = MeasuredShapes(shapes.time, shapes.arc_lengths, points)
+        same = MeasuredShapes(shapes.time, shapes.places, points)
         with pytest.raises(MeasuredShapesError, match=mistake):
             Replay(ROPE, same, ReplayOptions())
 
