@@ -61,12 +61,9 @@ class FieldObstacle::Search {
     prepare(object);
     for (int copy = 0; copy < object.copies; ++copy) {
       bring(object, copy);
-      double upper = INFINITY;
-      for (int point = 0; point < object.point_count; ++point) {
-        upper = std::min(upper, search_.sample(copies_.object().point(point)).distance);
-      }
+      const double upper = lowestCorner(copy);
       FieldPlace least;
-      int least_element = 0;
+      int& least_element = nearest_[copy];
       for (int element = 0; element < object.elements(); ++element) {
         const FieldPlace found = placeOf(copy, element, std::min(upper + FieldSearch::kTolerance, least.distance));
         if (found.distance < least.distance) {
@@ -95,7 +92,9 @@ class FieldObstacle::Search {
   void prepare(const ObjectView& object) {
     if (copies_.prepare(object)) {
       bounds_.clear();
+      nearest_.clear();
     }
+    nearest_.resize(copies_.count(), 0);
     while (static_cast<int>(bounds_.size()) < copies_.count()) {
       bounds_.emplace_back();
       bounds_.back().reset(copies_.object().size());
@@ -105,6 +104,24 @@ class FieldObstacle::Search {
   void bring(const ObjectView& object, int copy) {
     const double step = copies_.bring(object, copy, [this](const Vector3& point) { return toLocal(point); });
     bounds_[copy].move(search_.steepness() * step);
+  }
+
+  //! The least distance [m] of all corners. Elements that are known to be farther away are not looked at.
+  double lowestCorner(int copy) {
+    double lowest = lowestCornerOf(nearest_[copy], INFINITY);
+    for (int element = 0; element < copies_.object().size(); ++element) {
+      if (bounds_[copy].of(element) <= lowest) {
+        lowest = lowestCornerOf(element, lowest);
+      }
+    }
+    return lowest;
+  }
+
+  double lowestCornerOf(int element, double lowest) {
+    for (const Vector3& corner : copies_.object().corners<3>(element)) {
+      lowest = std::min(lowest, search_.distanceAt(corner));
+    }
+    return lowest;
   }
 
   //! The nearest point of an element; its distance is infinite, or above the limit [m], where it need not be known.
@@ -147,6 +164,7 @@ class FieldObstacle::Search {
   FieldSearch search_;
   LocalCopies copies_;
   std::vector<MovingBounds> bounds_;  // [copies] of their elements
+  std::vector<int> nearest_;          // [copies] element that was the nearest
 };
 
 FieldObstacle::FieldObstacle(std::vector<float> values, const std::array<int, 3>& size, const Vector3& origin,

@@ -233,7 +233,6 @@ void FieldSearch::divide(const Piece& piece, int from, int to, double parameter)
   }
 }
 
-//! That of sample().
 double FieldSearch::distanceAt(const Vector3& point) const {
   const Vector3& extent = field_.extent();
   const bool is_inside = (point.array() >= 0.0).all() && (point.array() <= extent.array()).all();

@@ -37,6 +37,9 @@ class FieldSearch {
 
   FieldSample sample(const Vector3& point) const;
 
+  //! Its distance alone [m].
+  double distanceAt(const Vector3& point) const;
+
   //! No more than this much the distance changes per metre, anywhere.
   double steepness() const { return std::hypot(1.0, field_.steepness()); }
 
@@ -70,7 +73,6 @@ class FieldSearch {
   bool cut(const Piece& piece);
   void halve(const Piece& piece);
   void divide(const Piece& piece, int from, int to, double parameter);
-  double distanceAt(const Vector3& point) const;
   double consider(const Vector3& point, const Weights& weights);
   FieldPlace middle(const Corners<3>& corners) const;
 

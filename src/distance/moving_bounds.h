@@ -26,6 +26,7 @@ class MovingBounds {
   void reset(int elements) {
     bounds_.assign(elements, -INFINITY);
     planes_.assign(elements, Plane());
+    others_.clear();
     least_ = -INFINITY;
   }
 
@@ -45,9 +46,18 @@ class MovingBounds {
   void set(int element, double bound) { bounds_[element] = bound + travel_; }
 
   //! @param plane with its `beyond` as it is now
-  void set(int element, const Plane& plane) {
-    planes_[element] = plane;
-    planes_[element].beyond += travel_;
+  void set(int element, const Plane& plane) { planes_[element] = asBefore(plane); }
+
+  //! Notes what is known of all pieces of the surface but the one that is nearest to an element.
+  //! @param plane of those pieces, with its `beyond` as it is now
+  void setOthers(int element, const Plane& plane) {
+    others_.resize(planes_.size());
+    others_[element] = asBefore(plane);
+  }
+
+  //! A lower bound [m] of their distances from the element.
+  double ofOthers(int element, const Corners<3>& corners) const {
+    return others_.empty() ? -INFINITY : boundBy(others_[element], corners);
   }
 
   //! Of an element's plane, or zero.
@@ -55,12 +65,7 @@ class MovingBounds {
 
   //! Whether an element is at least so far away [m], as its plane tells.
   bool renew(int element, const Corners<3>& corners, double least) {
-    const Plane& plane = planes_[element];
-    double above = INFINITY;
-    for (const Vector3& corner : corners) {
-      above = std::min(above, plane.normal.dot(corner));
-    }
-    const double bound = std::min(above - plane.height, plane.beyond - travel_);
+    const double bound = boundBy(planes_[element], corners);
     if (bound < least) {
       return false;
     }
@@ -75,8 +80,22 @@ class MovingBounds {
   static constexpr double kHorizon = 8.0;          // calls
   static constexpr double kLargestReserve = 0.02;  // m
 
+  Plane asBefore(Plane plane) const {
+    plane.beyond += travel_;
+    return plane;
+  }
+
+  double boundBy(const Plane& plane, const Corners<3>& corners) const {
+    double above = INFINITY;
+    for (const Vector3& corner : corners) {
+      above = std::min(above, plane.normal.dot(corner));
+    }
+    return std::min(above - plane.height, plane.beyond - travel_);
+  }
+
   std::vector<double> bounds_;  // m, as they were before anything moved
   std::vector<Plane> planes_;   // of the elements; `beyond` as before anything moved
+  std::vector<Plane> others_;   // likewise, of all but the nearest pieces; empty until they are asked for
   double least_ = -INFINITY;    // m, the same of all
   double travel_ = 0.0;         // m
   double reserve_ = 0.0;

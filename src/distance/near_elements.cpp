@@ -24,7 +24,7 @@ Box boxOf(const NearElement& element) {
 }
 
 void requireFinite(const NearElement& element) {
-  bool finite = std::isfinite(element.reach) && element.reach >= 0.0;
+  bool finite = std::isfinite(element.reach) && element.reach >= 0.0 && !std::isnan(element.farthest);
   for (const Vector3& corner : element.corners) {
     finite = finite && corner.allFinite();
   }
@@ -33,13 +33,43 @@ void requireFinite(const NearElement& element) {
   }
 }
 
+constexpr int kHalvings = 40;  // of a ray's piece, which then is shorter than rounding
+
+//! Whether a point, or one of those up to `doubt` from it either way, is within an element's reach.
+//!
+//! The squared distance is convex along the way, so that its slope tells where to look on.
+bool comesNear(const Vector3& point, const Vector3& doubt, const NearElement& element) {
+  double low = -1.0, high = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const Vector3 place = point + middle * doubt;
+    const NearestOnTriangle there = nearestOnTriangle(place, element.corners);
+    if (i == 0 && there.squared > element.farthest * element.farthest) {
+      return false;
+    }
+    if (there.squared <= element.reach * element.reach) {
+      return true;
+    }
+    if (std::sqrt(there.squared) - 0.5 * (high - low) * doubt.norm() >= element.reach) {
+      return false;
+    }
+    const double slope = doubt.dot(place - weighted<3>(element.corners, there.weights));
+    (slope > 0.0 ? high : low) = middle;
+  }
+  return false;
+}
+
 }  // namespace
 
 struct NearElements::Tree {
   BoxTree nodes;
 };
 
-NearElements::NearElements(std::vector<NearElement> elements) : elements_(std::move(elements)) {
+NearElements::NearElements(std::vector<NearElement> elements, const Rays& rays)
+    : elements_(std::move(elements)), rays_(rays) {
+  if (!(rays_.origin.allFinite() && rays_.doubt >= 0.0 && std::isfinite(rays_.doubt))) {
+    throw std::invalid_argument("the rays have a number that is not finite, or a negative doubt");
+  }
   std::vector<Box> boxes;
   for (const NearElement& element : elements_) {
     requireFinite(element);
@@ -63,18 +93,21 @@ void NearElements::markAll(const Number* xyz, std::size_t count, bool* marks) co
   }
   const Box& all = tree_->nodes[0].box;
   for (std::size_t i = 0; i < count; ++i) {
-    const Number* p = xyz + 3 * i;
+    const Vector3 point(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+    const Vector3 ray = point - rays_.origin, doubt = rays_.doubt * ray.norm() * ray;
     bool inside = true;  // no number is not
     for (int axis = 0; axis < 3; ++axis) {
-      inside = inside && p[axis] >= all.low[axis] && p[axis] <= all.high[axis];
+      const double most = std::fabs(doubt[axis]);
+      inside = inside && point[axis] + most >= all.low[axis] && point[axis] - most <= all.high[axis];
     }
-    marks[i] = inside && isNear(Vector3(p[0], p[1], p[2]));
+    marks[i] = inside && isNear(point, doubt);
   }
 }
 
-bool NearElements::isNear(const Vector3& point) const {
+bool NearElements::isNear(const Vector3& point, const Vector3& doubt) const {
   Box box;
-  box.include(point);
+  box.include(point - doubt);
+  box.include(point + doubt);
   SearchStack<int> waiting;
   waiting.push(0.0F, 0);
   while (!waiting.empty()) {
@@ -89,8 +122,7 @@ bool NearElements::isNear(const Vector3& point) const {
         waiting.push(0.0F, child);
         continue;
       }
-      const NearElement& element = elements_[~child];
-      if (nearestOnTriangle(point, element.corners).squared <= element.reach * element.reach) {
+      if (comesNear(point, doubt, elements_[~child])) {
         return true;
       }
     }

@@ -64,13 +64,23 @@ class NearestPairs {
     return nearest;
   }
 
-  //! The nearest pair of one element, if it is not farther apart than the bound [m].
-  Nearest nearestWithin(int element, double bound) {
+  //! An element and the piece that nearestWithin() found for it last, as they are now; infinitely far apart if none.
+  Nearest lastPair(int element) {
     Nearest last;
     last.element = element;
     last.piece = last_pieces_[element];
     if (last.piece >= 0) {
       self().improve(&last);
+    }
+    return last;
+  }
+
+  //! The nearest pair of one element, if it is not farther apart than the bound [m].
+  Nearest nearestWithin(int element, double bound) { return nearestWithin(element, bound, lastPair(element)); }
+
+  //! @param last of lastPair()
+  Nearest nearestWithin(int element, double bound, Nearest last) {
+    if (last.piece >= 0) {
       last.direction = self().towards(last);
     }
     const double reach = std::min(bound + bounds_->reserve(), std::sqrt(last.at.squared));

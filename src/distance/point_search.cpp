@@ -4,6 +4,9 @@ namespace deformable_manipulation {
 namespace distance {
 namespace {
 
+constexpr double kOthersBelow = 5e-4;    // m, how far it pays to know that no other point is as high as the nearest one
+constexpr double kLeastSpare = 2e-5;     // m, less of it does not last
+constexpr int kRest = 16;                // calls, after which it is tried again
 constexpr double kRounded = 1.0 - 1e-6;  // of squared distances along directions of single precision
 
 //! A lower bound of how far [m] a corner of an element is along a unit vector.
@@ -27,6 +30,15 @@ class PointDistance<2> {
   explicit PointDistance(const Corners<2>& segment) : start_(segment[0]), way_(segment[1] - segment[0]) {
     const double squared = way_.squaredNorm();
     inverse_ = squared > 0.0 ? 1.0 / squared : 0.0;
+  }
+
+  //! A point beside the segment: bit for bit what improve() finds of it.
+  ElementNearest of(const Vector3& point) const {
+    const double x = point.x() - start_.x(), y = point.y() - start_.y(), z = point.z() - start_.z();
+    const double along = inverse_ * (way_.x() * x + way_.y() * y + way_.z() * z);
+    const double t = std::min(std::max(along, 0.0), 1.0);
+    const double dx = x - way_.x() * t, dy = y - way_.y() * t, dz = z - way_.z() * t;
+    return {dx * dx + dy * dy + dz * dz, {1.0 - t, t, 0.0}};
   }
 
   //! Lower bounds [m] of the children's distances that their boxes do not tell.
@@ -127,12 +139,50 @@ void PointSearch::elements(ObjectTree& object, double limit, MovingBounds* bound
   startPairs(object, bounds);
   for (int element = 0; element < object.size(); ++element) {
     if (bounds->of(element) < limit + kSlack) {
-      const PointPlace found = placeOf(nearestWithin(element, limit));
+      Nearest pair = lastPair(element);
+      const double others = bounds->ofOthers(element, object.corners<3>(element));
+      if (pair.piece < 0 || others <= std::sqrt(pair.at.squared)) {
+        pair = nearestWithin(element, limit, pair);
+        findOthers(element, pair);
+      }
+      const PointPlace found = placeOf(pair);
       if (found.distance <= limit) {
         places->push_back(found);
       }
     }
   }
+}
+
+//! Notes how far all other points are below the one that is nearest to an element, so that the next calls need not
+//! search it again until it has moved so far that another one may be nearer. Where that is soon, it is not worth it.
+void PointSearch::findOthers(int element, const Nearest& nearest) {
+  bounds_->setOthers(element, MovingBounds::Plane());
+  rests_.resize(object_->size(), 0);
+  if (nearest.element < 0 || rests_[element] > 0) {
+    rests_[element] = std::max(0, rests_[element] - 1);
+    return;
+  }
+  const MovingBounds::Plane plane = planeOfOthers(nearest);
+  bounds_->setOthers(element, plane);
+  const double spare = bounds_->ofOthers(element, object_->corners<3>(element)) - std::sqrt(nearest.at.squared);
+  rests_[element] = spare < kLeastSpare ? kRest : 0;
+}
+
+MovingBounds::Plane PointSearch::planeOfOthers(const Nearest& nearest) {
+  const Box box = boxAround(object_->corners<3>(nearest.element));
+  MovingBounds::Plane plane;
+  plane.normal = towards(nearest);
+  HeightRange range;
+  range.enough = plane.normal.dot(tree_->point(nearest.piece));
+  range.lowest = range.enough - kOthersBelow;
+  plane.beyond = INFINITY;
+  plane.height = tree_->heightAlong(plane.normal, range, box, INFINITY, nearest.piece);
+  if (plane.height > range.enough) {
+    plane.beyond = std::sqrt(nearest.at.squared) + bounds_->reserve();
+    plane.height = tree_->heightAlong(plane.normal, range, box, plane.beyond * plane.beyond, nearest.piece);
+  }
+  plane.height += kSlack;
+  return plane;
 }
 
 PointPlace PointSearch::placeOf(const Nearest& pair) {
@@ -148,11 +198,7 @@ void PointSearch::improve(Nearest* pair) const {
     pair->at = {there.squared, there.weights};
     return;
   }
-  const Corners<2> segment = object_->corners<2>(pair->element);
-  const Vector3 way = segment[1] - segment[0];
-  const double squared = way.squaredNorm(), along = (point - segment[0]).dot(way);
-  const double t = squared > 0.0 ? std::min(std::max(along / squared, 0.0), 1.0) : 0.0;
-  pair->at = {(segment[0] + t * way - point).squaredNorm(), {1.0 - t, t, 0.0}};
+  pair->at = PointDistance<2>(object_->corners<2>(pair->element)).of(point);
 }
 
 //! The unit vector from the point towards the element, or zero if they touch.

@@ -44,10 +44,13 @@ class PointSearch : private NearestPairs<PointSearch> {
   double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach) const {
     return tree_->heightAlong(normal, range, box, squared_reach);
   }
+  void findOthers(int element, const Nearest& nearest);
+  MovingBounds::Plane planeOfOthers(const Nearest& nearest);
   static PointPlace placeOf(const Nearest& pair);
 
   std::shared_ptr<const PointTree> tree_;
   SearchStack<int> stack_;  // nodes, or blocks as ~index
+  std::vector<int> rests_;  // [elements] for how many searches other points are not looked at
 };
 
 }  // namespace distance

@@ -61,8 +61,8 @@ void PointTree::addNodes(const std::vector<Box>& boxes) {
   }
 }
 
-double PointTree::heightAlong(const Vector3& normal, const HeightRange& range, const Box& box,
-                              double squared_reach) const {
+double PointTree::heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach,
+                              int except) const {
   double highest = range.lowest;
   const Eigen::Vector3f along = normal.cast<float>();
   SearchStack<int> stack;
@@ -75,7 +75,9 @@ double PointTree::heightAlong(const Vector3& normal, const HeightRange& range, c
     if (entry.what < 0) {
       const PointBlock& eight = block(~entry.what);
       for (int slot = 0; slot < PointBlock::kSize; ++slot) {
-        highest = std::max(highest, normal.dot(eight.point(slot)));
+        if (PointBlock::kSize * ~entry.what + slot != except) {
+          highest = std::max(highest, normal.dot(eight.point(slot)));
+        }
       }
       continue;
     }

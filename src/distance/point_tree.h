@@ -43,7 +43,9 @@ class PointTree {
 
   //! How far [m] points reach along a unit vector.
   //! @param squared_reach [m^2] points farther than that from the box need not count
-  double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach) const;
+  //! @param except the place of a point that does not count, or -1
+  double heightAlong(const Vector3& normal, const HeightRange& range, const Box& box, double squared_reach,
+                     int except = -1) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(BoxNode) + block_count_ * sizeof(PointBlock); }
 

@@ -16,6 +16,11 @@ ParameterSection::ParameterSection(const ParameterValue& value, std::string path
   }
 }
 
+std::optional<double> ParameterSection::numberOrAuto(const std::string& key) const {
+  const auto* text = value_[key].as<std::string>();
+  return text != nullptr && *text == "auto" ? std::nullopt : std::optional<double>(number(key));
+}
+
 int ParameterSection::integer(const std::string& key) const {
   const double number = this->number(key);
   check_.require(number == std::floor(number), pathOf(key), number, "a whole number");
@@ -52,6 +57,14 @@ std::vector<std::string> ParameterSection::texts(const std::string& key) const {
     } else {
       refuse(item, pathOf(key), "a list of texts");
     }
+  }
+  return result;
+}
+
+std::vector<double> ParameterSection::numbers(const std::string& key) const {
+  std::vector<double> result;
+  for (const ParameterValue& item : items(key, "a list of numbers")) {
+    result.push_back(toNumber(item, pathOf(key)));
   }
   return result;
 }

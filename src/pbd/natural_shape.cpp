@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod_pieces.h"
+
 namespace deformable_manipulation {
 namespace pbd {
 namespace {
@@ -13,16 +15,17 @@ Quaternion rotationBy(const Vector3& turn) {
   return angle > 0.0 ? Quaternion(Eigen::AngleAxisd(angle, turn / angle)) : Quaternion::Identity();
 }
 
-//! count + 1 points at equal distances along a line of points.
-std::vector<Vector3> resampled(const std::vector<Vector3>& line, int count) {
+//! The points of a line of points at the ends of a rod's segments.
+std::vector<Vector3> resampled(const std::vector<Vector3>& line, const RodPieces& pieces) {
   std::vector<double> reached(line.size(), 0.0);
   for (std::size_t i = 1; i < line.size(); ++i) {
     reached[i] = reached[i - 1] + (line[i] - line[i - 1]).norm();
   }
   std::vector<Vector3> points;
   std::size_t piece = 1;
+  const int count = static_cast<int>(pieces.lengths.size());
   for (int i = 0; i <= count; ++i) {
-    const double wanted = reached.back() * i / count;
+    const double wanted = reached.back() * (pieces.equal ? 1.0 * i : pieces.ends[i] / pieces.usual) / count;
     while (piece + 1 < line.size() && reached[piece] < wanted) {
       ++piece;
     }
@@ -32,16 +35,22 @@ std::vector<Vector3> resampled(const std::vector<Vector3>& line, int count) {
   return points;
 }
 
+//! What a joint takes of the turn between its segments: a grip keeps the rod straight over its length.
+Quaternion bentPart(const Quaternion& turn, const RodPieces& pieces, int joint) {
+  return Quaternion::Identity().slerp(pieces.joint_lengths[joint] / pieces.between(joint, joint + 1), turn);
+}
+
 //! The turn of each joint of a rod whose centre line is given.
-std::vector<Quaternion> turnsAlong(const RodParameters& rod) {
-  const std::vector<Vector3> ends = resampled(rod.natural_shape.points, rod.segments);
-  const Quaternion twisted = rotationBy({rod.natural_shape.twist * rod.segmentLength(), 0.0, 0.0});
+std::vector<Quaternion> turnsAlong(const RodParameters& rod, const RodPieces& pieces) {
+  const std::vector<Vector3> ends = resampled(rod.natural_shape.points, pieces);
   Quaternion frame = Quaternion::FromTwoVectors(Vector3::UnitX(), ends[1] - ends[0]);
   std::vector<Quaternion> turns;
   for (int i = 1; i < rod.segments; ++i) {
     const Vector3 along = frame * Vector3::UnitX();
+    const Quaternion twisted = rotationBy({rod.natural_shape.twist * pieces.between(i - 1, i), 0.0, 0.0});
     const Quaternion next = (Quaternion::FromTwoVectors(along, ends[i + 1] - ends[i]) * frame * twisted).normalized();
-    turns.push_back(frame.conjugate() * next);
+    const Quaternion turn = frame.conjugate() * next;
+    turns.push_back(pieces.equal ? turn : bentPart(turn, pieces, i - 1));
     frame = next;
   }
   return turns;
@@ -55,12 +64,13 @@ NaturalJoints naturalJoints(const RodParameters& rod) {
   if (shape.isStraight()) {
     return joints;
   }
-  const double l = rod.segmentLength();
+  const RodPieces pieces = rodPieces(rod);
   if (shape.points.empty()) {
-    const Vector3 turn(l * shape.twist, l * shape.curvature[0], l * shape.curvature[1]);
-    joints.turns.assign(static_cast<std::size_t>(rod.segments) - 1, rotationBy(turn));
+    for (double l : pieces.joint_lengths) {
+      joints.turns.push_back(rotationBy({l * shape.twist, l * shape.curvature[0], l * shape.curvature[1]}));
+    }
   } else {
-    joints.turns = turnsAlong(rod);
+    joints.turns = turnsAlong(rod, pieces);
   }
   for (const Quaternion& turn : joints.turns) {
     const Vector3 ahead = turn * Vector3::UnitX();

@@ -11,23 +11,25 @@ void write(double* to, int i, const Vector3& value) { std::copy(value.data(), va
 
 }  // namespace
 
-void carriedMotion(const std::vector<HeldPoint>& holds, int n, double* velocity, double* angular_velocity) {
+void carriedMotion(const std::vector<HeldPoint>& holds, const std::vector<double>& places, double* velocity,
+                   double* angular_velocity) {
   std::size_t next = 0;  // first hold at or after the particle
+  const int n = static_cast<int>(places.size());
   for (int i = 0; i < n; ++i) {
     while (next < holds.size() && holds[next].particle < i) {
       ++next;
     }
     const HeldPoint& a = holds[next > 0 ? next - 1 : 0];
     const HeldPoint& b = holds[next < holds.size() ? next : holds.size() - 1];
-    const int gap = b.particle - a.particle;
-    const double t = gap > 0 ? static_cast<double>(i - a.particle) / gap : 0.0;
+    const double gap = places[b.particle] - places[a.particle];
+    const double t = gap > 0.0 ? (places[i] - places[a.particle]) / gap : 0.0;
     write(velocity, i, (1.0 - t) * a.twist.linear + t * b.twist.linear);
     write(angular_velocity, i, (1.0 - t) * a.twist.angular + t * b.twist.angular);
   }
 }
 
-void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia,
-                 double axial_inertia, double* velocity, double* angular_velocity) {
+void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double transverse_inertia, double* velocity,
+                 double* angular_velocity) {
   Vector3 centre = Vector3::Zero();
   Vector3 drift = Vector3::Zero();
   double total = 0.0;
@@ -44,8 +46,8 @@ void rigidMotion(const std::vector<SegmentMotion>& segments, double mass, double
     const Vector3 arm = segment.position - centre;
     const double across = transverse_inertia + segment.added_inertia;
     const double own_mass = segment.relative_mass * mass;
-    const Eigen::Matrix3d own =
-        across * Eigen::Matrix3d::Identity() + (axial_inertia - across) * segment.tangent * segment.tangent.transpose();
+    const Eigen::Matrix3d own = across * Eigen::Matrix3d::Identity() +
+                                (segment.axial_inertia - across) * segment.tangent * segment.tangent.transpose();
     inertia += own + own_mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
     angular_momentum += own * segment.angular_velocity + own_mass * arm.cross(segment.velocity - drift);
   }

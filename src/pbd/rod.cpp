@@ -8,6 +8,7 @@
 #include "deformable_manipulation/pbd/rod_rest_shapes.h"
 #include "natural_shape.h"
 #include "rod_masses.h"
+#include "rod_pieces.h"
 #include "rod_state.h"
 
 namespace deformable_manipulation {
@@ -21,8 +22,9 @@ constexpr double kClampedInertia = 1e30;
 
 Rod::Rod(const RodParameters& parameters)
     : parameters_(checked(parameters)),
+      pieces_(std::make_shared<RodPieces>(rodPieces(parameters_))),
       natural_(std::make_shared<NaturalJoints>(pbd::naturalJoints(parameters_))),
-      masses_(std::make_shared<SegmentMasses>(pbd::segmentMasses(parameters_))),
+      masses_(std::make_shared<SegmentMasses>(pbd::segmentMasses(parameters_, *pieces_))),
       state_(new State(parameters_.segments)) {
   const int n = parameters_.segments;
   State& s = *state_;
@@ -49,6 +51,7 @@ Rod::Rod(const RodParameters& parameters)
 Rod::Rod(const Rod& other)
     : Body(other),
       parameters_(other.parameters_),
+      pieces_(other.pieces_),
       natural_(other.natural_),
       masses_(other.masses_),
       state_(new State(*other.state_)) {}
@@ -90,18 +93,14 @@ std::vector<MaterialParameter> Rod::dampings() const {
           {"torsion_retardation_time", parameters_.torsion_retardation_time}};
 }
 
-std::vector<double> Rod::arcLengths() const {
-  std::vector<double> arc_lengths;
-  for (int i = 0; i < pointCount(); ++i) {
-    arc_lengths.push_back(i * parameters_.segmentLength());
-  }
-  return arc_lengths;
-}
+std::vector<double> Rod::arcLengths() const { return pieces_->ends; }
+
+std::vector<double> Rod::jointLengths() const { return pieces_->joint_lengths; }
 
 double Rod::freeLength(int particle, int other) const {
   requireParticle(particle);
   requireParticle(other);
-  return std::abs(particle - other) * parameters_.segmentLength();
+  return std::abs(pieces_->between(particle, other));
 }
 
 Pose Rod::pose(int particle) const {
@@ -141,15 +140,16 @@ void Rod::placeMasses() {
     const bool is_held = std::any_of(holds().begin(), holds().end(), holds_it);
     s.offset[i] = is_held ? 0.0 : masses_->moment[i] / mass;
     s.weight_moment[i] = is_held ? masses_->moment[i] : 0.0;
-    s.arm_before[i] = 0.5 * p.segmentLength() + s.offset[i];
-    s.arm_after[i] = 0.5 * p.segmentLength() - s.offset[i];
+    s.arm_before[i] = 0.5 * pieces_->lengths[i] + s.offset[i];
+    s.arm_after[i] = 0.5 * pieces_->lengths[i] - s.offset[i];
+    const double axial = p.axialInertia() * pieces_->share(i);
     const double transverse = p.transverseInertia() + (masses_->inertia[i] - mass * s.offset[i] * s.offset[i]);
     s.inverse_mass[i] = 1.0 / mass;
     s.inverse_transverse[i] = 1.0 / transverse;
-    s.inverse_axial[i] = 1.0 / p.axialInertia();
+    s.inverse_axial[i] = 1.0 / axial;
     s.transverse_inertia[i] = transverse;
-    s.inertia_excess[i] = p.axialInertia() - transverse;
-    s.inertia_ratio[i] = p.axialInertia() / transverse - 1.0;
+    s.inertia_excess[i] = axial - transverse;
+    s.inertia_ratio[i] = axial / transverse - 1.0;
     if (s.offset[i] != before[i]) {
       shiftPositions(i, s.offset[i] - before[i]);
     }
@@ -181,14 +181,14 @@ void Rod::resizeCopies() { state_->groups.resize(*this); }
 void Rod::assignCopy(int to, int from) { state_->groups.assign(to, from); }
 
 double Rod::stretch() const {
-  const double l = parameters_.segmentLength();
-  double length = l;
+  const std::vector<double>& lengths = pieces_->lengths;
+  double length = lengths[0];
   for (int i = 1; i < parameters_.segments; ++i) {
     const Pose before = pose(i - 1);
     const Pose after = pose(i);
-    const Vector3 gap = (after.position - 0.5 * l * tangent(after.orientation)) -
-                        (before.position + 0.5 * l * tangent(before.orientation));
-    length += l + gap.norm();
+    const Vector3 gap = (after.position - 0.5 * lengths[i] * tangent(after.orientation)) -
+                        (before.position + 0.5 * lengths[i - 1] * tangent(before.orientation));
+    length += lengths[i] + gap.norm();
   }
   return length / parameters_.length - 1.0;
 }
@@ -198,7 +198,7 @@ Wrench Rod::wrench(int particle, int copy) const {
   const RodLanes& lanes = state_->groups.of(copy);
   const int lane = copy % kLanes;
   const double per_h2 = state_->input.h > 0.0 ? 1.0 / (state_->input.h * state_->input.h) : 0.0;
-  const double half = 0.5 * parameters_.segmentLength();
+  const double half = 0.5 * pieces_->lengths[particle];
   const Vector3 d = tangent(read4(lanes.orientation, particle, lane));
   Wrench wrench;
   wrench.force = masses_->relative[particle] * parameters_.segmentMass() * parameters_.gravity;
@@ -244,7 +244,6 @@ std::unique_ptr<RestShapes> Rod::restShapes(const std::vector<HeldPoint>& agents
 
 void Rod::points(double* to) const {
   const int n = parameters_.segments;
-  const double half = 0.5 * parameters_.segmentLength();
   for (int copy = 0; copy < copyCount(); ++copy) {
     const RodLanes& lanes = state_->groups.of(copy);
     const int lane = copy % kLanes;
@@ -253,7 +252,7 @@ void Rod::points(double* to) const {
       Vector3 point = before;
       if (i < n) {
         const Vector3 x = centre(i, copy);
-        const Vector3 reach = half * tangent(read4(lanes.orientation, i, lane));
+        const Vector3 reach = 0.5 * pieces_->lengths[i] * tangent(read4(lanes.orientation, i, lane));
         point = i > 0 ? Vector3(0.5 * (before + x - reach)) : Vector3(x - reach);
         before = x + reach;
       }
@@ -304,8 +303,7 @@ double Rod::highestSpeed() const {
   double highest = 0.0;
   for (int copy = 0; copy < copyCount(); ++copy) {
     for (int i = 0; i < parameters_.segments; ++i) {
-      const double turning =
-          parameters_.segmentLength() * state_->groups.read(&RodLanes::angular_velocity, i, copy).norm();
+      const double turning = pieces_->lengths[i] * state_->groups.read(&RodLanes::angular_velocity, i, copy).norm();
       highest = std::max({highest, state_->groups.read(&RodLanes::velocity, i, copy).norm(), turning});
     }
   }

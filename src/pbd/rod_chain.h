@@ -118,7 +118,7 @@ class RodChain {
     Joint joint = pack_.joint(j, front.segment.q, front.tangent, next.q, d);
     Elasticity elasticity = elasticityAt(j, joint, front.segment.q, next.q);
     if (viscous && active) {
-      addViscosity(elasticity, stiffnessOf(joint, in_.bending_viscosity, in_.torsion_viscosity),
+      addViscosity(elasticity, stiffnessOf(joint, in_.joints[j].bending_viscosity, in_.joints[j].torsion_viscosity),
                    pack_.turnedSince(j + 1, next.q) - pack_.turnedSince(j, front.segment.q));
     }
 
@@ -138,7 +138,7 @@ class RodChain {
     Vec3 gap = transposedMultiplyAdd(front.r, turn, front.gap + gapAt(j, joint, front.segment.x, next.x));
     Matrix3 a_inverse_r = a_inverse * front.r;
     Symmetric3 n = addOuter(transposedMultiplyAdd(front.r, a_inverse_r, front.n + compliance(j)),
-                            broadcast(in_.axial_compliance), joint.d0);
+                            broadcast(in_.joints[j].axial_compliance), joint.d0);
     Matrix3 lever = crossMatrix(armBefore(j + 1) * d);
     Matrix3 h = multiplyAdd(k, a_inverse_r, lever);
     Symmetric3 p = active ? inverse(n) : Symmetric3{};
@@ -201,8 +201,8 @@ class RodChain {
   }
 
   DM_INLINE Elasticity elasticityAt(int j, const Joint& joint, const Quat& q0, const Quat& q1) const {
-    const double bending = in_.joint_active[j] ? in_.bending_stiffness : 0.0;
-    const double torsion = in_.joint_active[j] ? in_.torsion_stiffness : 0.0;
+    const double bending = in_.joint_active[j] ? in_.joints[j].bending_stiffness : 0.0;
+    const double torsion = in_.joint_active[j] ? in_.joints[j].torsion_stiffness : 0.0;
     if (plain || in_.natural_ahead == nullptr) {
       return elasticityOf(joint, bending, torsion);
     }

@@ -65,28 +65,28 @@ double RodDerivative::twist(int joint) const {
 }
 
 //! That of bending; a and b are what it brings together, such as the tangents.
-RodDerivative::Moment RodDerivative::bending(const Vector3& a, const Vector3& b) const {
-  const double flexural = in_.bending_stiffness / in_.segment_length;
+RodDerivative::Moment RodDerivative::bending(const Vector3& a, const Vector3& b, double flexural) {
   return {flexural * a.cross(b), flexural * (a.dot(b) * Eigen::Matrix3d::Identity() - symmetricProductOf(a, b))};
 }
 
 RodDerivative::Moment RodDerivative::bending(int joint) const {
   const Vector3& d0 = tangents_[joint];
   const Vector3& d1 = tangents_[joint + 1];
+  const double flexural = in_.flexural[joint];
   if (in_.natural_ahead == nullptr) {
-    return bending(d0, d1);
+    return bending(d0, d1, flexural);
   }
   const Vector3 ahead = orientation(joint) * Vector3(Eigen::Map<const Vector3>(in_.natural_ahead + 3 * joint));
   const Vector3 behind = orientation(joint + 1) * Vector3(Eigen::Map<const Vector3>(in_.natural_behind + 3 * joint));
-  const Moment first = bending(ahead, d1);
-  const Moment second = bending(d0, behind);
+  const Moment first = bending(ahead, d1, flexural);
+  const Moment second = bending(d0, behind, flexural);
   return {0.5 * (first.value + second.value), 0.5 * (first.slope + second.slope)};
 }
 
 RodDerivative::Moment RodDerivative::moment(int joint) const {
   const Vector3& d0 = tangents_[joint];
   const Vector3& d1 = tangents_[joint + 1];
-  const double torsional = in_.torsion_stiffness / in_.segment_length;
+  const double torsional = in_.torsional[joint];
   const double lean = 1.0 / std::max(1.0 + d0.dot(d1), kLeastLeanOfJoint);
   const double natural_twist = in_.natural_ahead == nullptr ? 0.0 : in_.natural_twist[joint];
   const double torque = torsional * (twist(joint) - natural_twist);
@@ -135,7 +135,7 @@ Wrench RodDerivative::wrench(int hold) const {
   const Vector3 weight(in_.weight[0], in_.weight[1], in_.weight[2]);
   Wrench result;
   result.force = (in_.weights_before[i + 1] - in_.weights_before[i]) * weight + force(i) - force(i - 1);
-  result.torque = 0.5 * in_.segment_length * tangents_[i].cross(pull(i));
+  result.torque = in_.half_length[i] * tangents_[i].cross(pull(i));
   if (i + 1 < in_.segments) {
     result.torque += moment(i).value;
   }
@@ -160,12 +160,12 @@ bool RodDerivative::isCoupled(int i) const {
 Vector3 RodDerivative::gapChange(int joint, const Vector3& tangent_change) const {
   const Vector3& d = tangents_[joint];
   const Vector3 pull = force(joint);
-  return in_.axial_compliance * (tangent_change.dot(pull) * d + d.dot(pull) * tangent_change);
+  return in_.extension[joint] * (tangent_change.dot(pull) * d + d.dot(pull) * tangent_change);
 }
 
 Vector3 RodDerivative::opening(int joint, const Vector3& tangent_change) const {
   const Vector3& d = tangents_[joint];
-  return gapChange(joint, tangent_change) + in_.axial_compliance * d.dot(forceChange(joint)) * d;
+  return gapChange(joint, tangent_change) + in_.extension[joint] * d.dot(forceChange(joint)) * d;
 }
 
 void RodDerivative::displace(int hold, const Vector3& by) {
@@ -193,7 +193,7 @@ void RodDerivative::turn(int hold, const Vector3& by) {
   for (int span = 0; span < in_.span_count; ++span) {
     for (int i = in_.spans[span].first; i <= in_.spans[span].last; ++i) {
       const Vector3 change = turns_[i].cross(tangents_[i]);
-      missing[span] -= 0.5 * in_.segment_length * jointsIn(span, i) * change;
+      missing[span] -= in_.half_length[i] * jointsIn(span, i) * change;
       if (i < in_.spans[span].last) {
         missing[span] -= gapChange(i, change);
       }
@@ -248,7 +248,7 @@ void RodDerivative::close(std::vector<Vector3>& missing) {
 Wrench RodDerivative::wrenchChange(int hold) const {
   const int i = in_.held[hold];
   const Vector3& d = tangents_[i];
-  const double half = 0.5 * in_.segment_length;
+  const double half = in_.half_length[i];
   Wrench change;
   change.force = forceChange(i) - forceChange(i - 1);
   change.torque = half * turns_[i].cross(d).cross(pull(i));
@@ -266,22 +266,21 @@ Wrench RodDerivative::wrenchChange(int hold) const {
 void RodDerivative::pointChanges(std::vector<Vector3>& to) const {
   const int n = in_.segments;
   const int start = in_.held[0];
-  const double half = 0.5 * in_.segment_length;
   const auto tangentChange = [this](int i) { return Vector3(turns_[i].cross(tangents_[i])); };
   const Vector3 centre = displaced_ == 0 ? displacement_ : Vector3::Zero();
   to.resize(static_cast<std::size_t>(n) + 1);
-  Vector3 end = centre + half * tangentChange(start);
+  Vector3 end = centre + in_.half_length[start] * tangentChange(start);
   for (int i = start; i + 1 < n; ++i) {
     const Vector3 gap = opening(i, tangentChange(i));
     to[i + 1] = end + 0.5 * gap;
-    end += gap + 2.0 * half * tangentChange(i + 1);
+    end += gap + 2.0 * in_.half_length[i + 1] * tangentChange(i + 1);
   }
   to[n] = end;
-  end = centre - half * tangentChange(start);
+  end = centre - in_.half_length[start] * tangentChange(start);
   for (int i = start; i > 0; --i) {
     const Vector3 gap = opening(i - 1, tangentChange(i - 1));
     to[i] = end - 0.5 * gap;
-    end -= gap + 2.0 * half * tangentChange(i - 1);
+    end -= gap + 2.0 * in_.half_length[i - 1] * tangentChange(i - 1);
   }
   to[0] = end;
 }

@@ -40,7 +40,7 @@ class RodDerivative {
   Quaternion orientation(int i) const;
   double closure(int row, int column) const;
   double twist(int joint) const;
-  Moment bending(const Vector3& a, const Vector3& b) const;
+  static Moment bending(const Vector3& a, const Vector3& b, double flexural);
   Moment bending(int joint) const;
   Moment moment(int joint) const;
   Vector3 momentChange(int joint) const;

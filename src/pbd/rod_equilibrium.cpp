@@ -9,6 +9,7 @@
 #include "rod_derivative.h"
 #include "rod_equilibrium_kernel.h"
 #include "rod_masses.h"
+#include "rod_pieces.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -56,9 +57,10 @@ struct RodEquilibrium::State {
   std::vector<int> span_of_joint;
   std::vector<RodSpan> spans;
   std::vector<int> held;
+  std::shared_ptr<const RodPieces> pieces;
   std::shared_ptr<const NaturalJoints> natural;
   std::shared_ptr<const SegmentMasses> masses;
-  std::vector<double> lean_weight;
+  std::vector<double> lean_weight, half_length, flexural, torsional, extension;
   RodEquilibriumInput input;
 
   std::vector<RodEquilibriumLanes> groups;
@@ -82,6 +84,7 @@ struct RodEquilibrium::State {
   void search(RodEquilibriumLanes& lanes, int copies, const EquilibriumOptions& options);
   ResponseStatus judge(const Rod& rod, int copy, const EquilibriumOptions& options);
   bool isTwistedAs(const Rod& rod, int copy) const;
+  bool stretches() const { return parameters.stretch == Stretch::FROM_MODULI; }
   bool outOfReach(int copy) const;
   bool swingsFreely(int copy) const;
   void points(int copy, double* to) const;
@@ -258,6 +261,7 @@ void RodEquilibrium::State::configure(const Rod& rod) {
   const bool same_holds = sameHolds(holds, rod.holds()) && !held.empty();
   parameters = rod.parameters();
   holds = rod.holds();
+  pieces = rod.pieces();
   natural = rod.naturalJoints();
   masses = rod.segmentMasses();
   if (!same_holds) {
@@ -287,20 +291,25 @@ void RodEquilibrium::State::describeHolds() {
 }
 
 void RodEquilibrium::State::describeMaterial() {
-  const double l = parameters.segmentLength();
   input.segments = parameters.segments;
-  input.segment_length = l;
-  input.bending_stiffness = parameters.bendingStiffness();
-  input.torsion_stiffness = parameters.torsionStiffness();
-  input.axial_compliance = parameters.stretch == Stretch::FROM_MODULI ? l / parameters.axialStiffness() : 0.0;
+  flexural.clear();
+  torsional.clear();
+  extension.clear();
+  for (double l : pieces->joint_lengths) {
+    flexural.push_back(parameters.bendingStiffness() / l);
+    torsional.push_back(parameters.torsionStiffness() / l);
+    extension.push_back(stretches() ? l / parameters.axialStiffness() : 0.0);
+  }
   const Vector3 weight = parameters.segmentMass() * parameters.gravity;
   std::copy(weight.data(), weight.data() + 3, input.weight);
+  half_length.resize(parameters.segments);
   lean_weight.resize(parameters.segments);
   for (int i = 0; i < parameters.segments; ++i) {
-    lean_weight[i] = masses->moment[i] / (0.5 * l * parameters.segmentMass());
+    half_length[i] = 0.5 * pieces->lengths[i];
+    lean_weight[i] = masses->moment[i] / (half_length[i] * parameters.segmentMass());
   }
   const bool spins = std::none_of(clamped.begin(), clamped.end(), [](unsigned char is) { return is != 0; });
-  input.spin_stiffness = spins ? kSpinFraction * parameters.torsionStiffness() / l : 0.0;
+  input.spin_stiffness = spins ? kSpinFraction * parameters.torsionStiffness() / pieces->usual : 0.0;
 }
 
 void RodEquilibrium::State::connect() {
@@ -309,6 +318,10 @@ void RodEquilibrium::State::connect() {
   input.spans = spans.data();
   input.span_count = static_cast<int>(spans.size());
   input.held = held.data();
+  input.half_length = half_length.data();
+  input.flexural = flexural.data();
+  input.torsional = torsional.data();
+  input.extension = extension.data();
   input.weights_before = masses->before.data();
   input.lean_weight = lean_weight.data();
   input.natural_ahead = natural->empty() ? nullptr : natural->ahead.data();
@@ -410,11 +423,11 @@ bool RodEquilibrium::State::isTwistedAs(const Rod& rod, int copy) const {
 }
 
 bool RodEquilibrium::State::outOfReach(int copy) const {
-  if (input.axial_compliance > 0.0) {
+  if (stretches()) {
     return false;
   }
   for (std::size_t span = 0; span < spans.size(); ++span) {
-    const double longest = (spans[span].last - spans[span].first) * input.segment_length;
+    const double longest = pieces->between(spans[span].first, spans[span].last);
     if (!(vector(&RodEquilibriumLanes::reach, static_cast<int>(span), copy).norm() < kReach * longest)) {
       return true;
     }
@@ -434,24 +447,23 @@ bool RodEquilibrium::State::swingsFreely(int copy) const {
 
 void RodEquilibrium::State::points(int copy, double* to) const {
   const int n = parameters.segments;
-  const double half = 0.5 * parameters.segmentLength();
   const auto write = [to](int point, const Vector3& x) { std::copy(x.data(), x.data() + 3, to + 3 * point); };
   const auto opening = [&](int joint) {  // of an extensible rod, between two segments
     const Vector3 d = tangentOf(joint, copy);
-    return Vector3(input.axial_compliance * d.dot(jointForce(joint, copy)) * d);
+    return Vector3(extension[joint] * d.dot(jointForce(joint, copy)) * d);
   };
-  Vector3 end = first_position[copy] + half * tangentOf(held.front(), copy);
+  Vector3 end = first_position[copy] + half_length[held.front()] * tangentOf(held.front(), copy);
   for (int i = held.front(); i + 1 < n; ++i) {
     const Vector3 gap = opening(i);
     write(i + 1, end + 0.5 * gap);
-    end += gap + 2.0 * half * tangentOf(i + 1, copy);
+    end += gap + pieces->lengths[i + 1] * tangentOf(i + 1, copy);
   }
   write(n, end);
-  end = first_position[copy] - half * tangentOf(held.front(), copy);
+  end = first_position[copy] - half_length[held.front()] * tangentOf(held.front(), copy);
   for (int i = held.front(); i > 0; --i) {
     const Vector3 gap = opening(i - 1);
     write(i, end - 0.5 * gap);
-    end -= gap + 2.0 * half * tangentOf(i - 1, copy);
+    end -= gap + pieces->lengths[i - 1] * tangentOf(i - 1, copy);
   }
   write(0, end);
 }

@@ -104,12 +104,7 @@ constexpr double kLongestTurn = 0.5;  // rad
 class Equilibrium {
  public:
   Equilibrium(const RodEquilibriumInput& input, RodEquilibriumLanes& lanes, int first_lane)
-      : in_(input),
-        s_(lanes),
-        lane_(first_lane),
-        half_length_(broadcast(0.5 * input.segment_length)),
-        axial_(broadcast(input.axial_compliance)),
-        weight_(broadcast3(input.weight)) {}
+      : in_(input), s_(lanes), lane_(first_lane), weight_(broadcast3(input.weight)) {}
 
   void step() {
     negative_ = Pack{};
@@ -156,6 +151,8 @@ class Equilibrium {
   int width() const { return 6 * in_.span_count + 1; }
   double* closure(int row, int column) const { return at(s_.closure, row * width() + column); }
 
+  DM_INLINE Pack halfLength(int i) const { return broadcast(in_.half_length[i]); }
+
   //! Force of joint j on segment j.
   DM_INLINE Vec3 force(int j) const {
     if (j < 0 || j + 1 >= in_.segments) {
@@ -185,13 +182,11 @@ class Equilibrium {
 
   //! d moment on a segment / d force in a span
   DM_INLINE Matrix3 leverOf(int span, int i, const Vec3& d) const {
-    return crossMatrix((broadcast(jointsIn(span, i)) * half_length_) * d);
+    return crossMatrix((broadcast(jointsIn(span, i)) * halfLength(i)) * d);
   }
 
   //! Forward elimination of the moment balance, for the residual and for each force of the spans.
   void eliminate() {
-    const Pack flexural = broadcast(in_.bending_stiffness / in_.segment_length);
-    const Pack torsional = broadcast(in_.torsion_stiffness / in_.segment_length);
     JointMoment before = {};
     Vec3 force_before = {};
     Quat q = orientation(0);
@@ -205,13 +200,15 @@ class Equilibrium {
         next_tangent = tangentOf(next);
         const Joint joint = jointBetween(q, d, next, next_tangent, load(at(s_.twist, i)));
         store(at(s_.twist, i), joint.twist);
+        const Pack flexural = broadcast(in_.flexural[i]);
+        const Pack torsional = broadcast(in_.torsional[i]);
         after = in_.natural_ahead == nullptr ? momentOf(joint, flexural, torsional)
                                              : momentOf(joint, naturalJoint(i, q, next), flexural, torsional);
         q = next;
       }
       const Vec3 force_after = force(i);
       const Vec3 pull = scaleAdd(broadcast(in_.lean_weight[i]), weight_, force_before + force_after);
-      const Vec3 residual = after.moment - before.moment + half_length_ * cross(d, pull);
+      const Vec3 residual = after.moment - before.moment + halfLength(i) * cross(d, pull);
       eliminateSegment(i, d, pull, residual, before.stiffness, after);
       before = after;
       force_before = force_after;
@@ -225,9 +222,9 @@ class Equilibrium {
     Symmetric3 pivot = isotropic(broadcast(1.0));
     Vec3 right = {};
     if (free) {
-      pivot = addOuter(before + after.stiffness + isotropic(half_length_ * dot(d, pull)), broadcast(in_.spin_stiffness),
-                       d) -
-              symmetricProduct(half_length_, d, pull);
+      pivot = addOuter(before + after.stiffness + isotropic(halfLength(i) * dot(d, pull)),
+                       broadcast(in_.spin_stiffness), d) -
+              symmetricProduct(halfLength(i), d, pull);
       right = residual;
     }
     Matrix3 carried = {};  // inverse pivot of the segment before times the coupling
@@ -279,16 +276,17 @@ class Equilibrium {
   //! How the reach of a span changes as segment i turns.
   DM_INLINE Vec3 reachChange(int span, int i, const Vec3& d, const Vec3& turn) const {
     const Vec3 v = cross(turn, d);
-    Vec3 change = (broadcast(jointsIn(span, i)) * half_length_) * v;
+    Vec3 change = (broadcast(jointsIn(span, i)) * halfLength(i)) * v;
     if (i + 1 < in_.segments && in_.span_of_joint[i] == span) {
-      change = change + gapChange(d, v, force(i));
+      change = change + gapChange(i, d, v);
     }
     return change;
   }
 
-  //! How the axial extension of a joint changes with its first segment's tangent d by v.
-  DM_INLINE Vec3 gapChange(const Vec3& d, const Vec3& v, const Vec3& pull) const {
-    return axial_ * (dot(v, pull) * d + dot(d, pull) * v);
+  //! How the axial extension of joint j changes with its first segment's tangent d by v.
+  DM_INLINE Vec3 gapChange(int j, const Vec3& d, const Vec3& v) const {
+    const Vec3 pull = force(j);
+    return broadcast(in_.extension[j]) * (dot(v, pull) * d + dot(d, pull) * v);
   }
 
   //! Conditions that every span ends where it is held: matrix, right-hand side, and the inverse.
@@ -303,11 +301,12 @@ class Equilibrium {
       Vec3 missing = load3(at(s_.reach, 3 * span), kLanes);
       for (int i = in_.spans[span].first; i <= in_.spans[span].last; ++i) {
         const Vec3 d = tangent(i);
-        missing = missing - (broadcast(jointsIn(span, i)) * half_length_) * d;
+        missing = missing - (broadcast(jointsIn(span, i)) * halfLength(i)) * d;
         missing = missing - reachChange(span, i, d, load3(at(s_.correction, 3 * i), kLanes));
         if (i < in_.spans[span].last) {
-          missing = missing - (axial_ * dot(d, force(i))) * d;
-          addToClosure(span, span, {(axial_ * d.x) * d, (axial_ * d.y) * d, (axial_ * d.z) * d});
+          const Pack axial = broadcast(in_.extension[i]);
+          missing = missing - (axial * dot(d, force(i))) * d;
+          addToClosure(span, span, {(axial * d.x) * d, (axial * d.y) * d, (axial * d.z) * d});
         }
         for (int other = 0; other < in_.span_count; ++other) {
           addToClosure(span, other, byColumns(loadMatrix3(forceResponse(i, other)), [&](const Vec3& turn) {
@@ -422,9 +421,9 @@ class Equilibrium {
   //! How far the joint after segment i opens, for the change v of its tangent.
   DM_INLINE Vec3 openingChange(int i, const Vec3& v) const {
     const Vec3 d = tangent(i);
-    Vec3 change = gapChange(d, v, force(i));
+    Vec3 change = gapChange(i, d, v);
     if (in_.span_of_joint[i] >= 0) {
-      change = change + (axial_ * dot(d, forceChange(in_.span_of_joint[i]))) * d;
+      change = change + (broadcast(in_.extension[i]) * dot(d, forceChange(in_.span_of_joint[i]))) * d;
     }
     return change;
   }
@@ -442,22 +441,22 @@ class Equilibrium {
     const Pack half = broadcast(0.5);
     const Vec3 start_change = tangentChange(start);
     Vec3 v = start_change;
-    Vec3 end = half_length_ * v;
+    Vec3 end = halfLength(start) * v;
     for (int i = start; i + 1 < in_.segments; ++i) {
       const Vec3 opening = openingChange(i, v);
       storeResponse(h, i + 1, axis, end + half * opening);
       v = tangentChange(i + 1);
-      end = end + opening + (2.0 * half_length_) * v;
+      end = end + opening + (2.0 * halfLength(i + 1)) * v;
     }
     storeResponse(h, in_.segments, axis, end);
 
     v = start_change;
-    end = -(half_length_ * v);
+    end = -(halfLength(start) * v);
     for (int i = start; i > 0; --i) {
       v = tangentChange(i - 1);
       const Vec3 opening = openingChange(i - 1, v);
       storeResponse(h, i, axis, end - half * opening);
-      end = end - opening - (2.0 * half_length_) * v;
+      end = end - opening - (2.0 * halfLength(i - 1)) * v;
     }
     storeResponse(h, 0, axis, end);
   }
@@ -477,8 +476,6 @@ class Equilibrium {
   const RodEquilibriumInput& in_;
   RodEquilibriumLanes& s_;
   const int lane_;
-  const Pack half_length_;
-  const Pack axial_;
   const Vec3 weight_;
   Pack negative_;
 };

@@ -14,12 +14,12 @@ struct RodSpan {
 //! What a Newton step needs besides the shapes.
 struct RodEquilibriumInput {
   int segments;
-  double segment_length;         // m
-  double bending_stiffness;      // E I [N m^2]
-  double torsion_stiffness;      // G J [N m^2]
-  double axial_compliance;       // l / (E A) [m/N]
-  double weight[3];              // of a segment alone [N]
-  const double* weights_before;  // [N + 1] weights of the segments before one over that of a segment alone, sum
+  const double* half_length;     // [N] m
+  const double* flexural;        // [N - 1] E I / l [N m/rad], with the length l of the rod that bends in a joint
+  const double* torsional;       // [N - 1] G J / l [N m/rad]
+  const double* extension;       // [N - 1] l / (E A) [m/N]
+  double weight[3];              // of a usual segment alone [N]
+  const double* weights_before;  // [N + 1] weights of the segments before one over that of a usual one alone, sum
   const double* lean_weight;     // [N] moment of the weight off a segment's centre, per half length and `weight`
   const double* natural_ahead;   // [(N - 1) x 3] see NaturalJoints; null: straight by nature
   const double* natural_behind;  // [(N - 1) x 3]

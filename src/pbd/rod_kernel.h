@@ -39,23 +39,28 @@ struct HeldSegment {
   double orientation[4];  // at the end of the substep, where clamped
 };
 
-//! What a substep needs besides the state. Compliances and stiffnesses are per joint and include the time step:
-//! a multiplier is a force or torque times h^2.
-struct RodSubstepInput {
-  int segments;
-  double h;                   // s
-  double segment_length;      // m
-  double gravity[3];          // m/s^2
+//! How a joint resists, with the length l of the rod that bends in it.
+struct JointStiffness {
   double bending_compliance;  // l / (E I h^2), times bending_elasticity
   double torsion_compliance;  // l / (G J h^2), times torsion_elasticity
   double bending_stiffness;   // E I h^2 / l, as far as the direct solver can tell it from rigid
   double torsion_stiffness;   // G J h^2 / l, likewise
-  bool viscous;               // whether the joints resist their rate of bending or twisting
-  double bending_viscosity;   // of a joint: torque per rotation in a substep, retardation time / h
+  double bending_viscosity;   // torque per rotation in a substep: retardation time / h
   double torsion_viscosity;   // times the stiffness
-  double bending_elasticity;  // elastic part of a joint's resistance: 1 / (1 + retardation time / h)
+  double bending_elasticity;  // elastic part of the resistance: 1 / (1 + retardation time / h)
   double torsion_elasticity;
-  double axial_compliance;                   // l / (E A h^2)
+  double axial_compliance;  // l / (E A h^2)
+};
+
+//! What a substep needs besides the state. Compliances and stiffnesses are per joint and include the time step:
+//! a multiplier is a force or torque times h^2.
+struct RodSubstepInput {
+  int segments;
+  double h;                                  // s
+  double segment_length;                     // m, where all are as long
+  double gravity[3];                         // m/s^2
+  const JointStiffness* joints;              // [N - 1]
+  bool viscous;                              // whether the joints resist their rate of bending or twisting
   double floor_compliance;                   // keeps the joint's matrix regular when both of its segments are held
   const double* inverse_mass;                // [N] 1/kg, zero where held
   const double* inverse_transverse;          // [N] 1/(kg m^2), zero where clamped
@@ -67,7 +72,7 @@ struct RodSubstepInput {
   const double* weight_moment;               // [N] kg m, of mass off the centre that a pinned segment turns about
   const double* arm_before;                  // [N] m, from the joint before a segment to its position
   const double* arm_after;                   // [N] m, from there to the joint after it
-  bool plain;                                // whether the rod is straight by nature and all arms are l / 2
+  bool plain;                                // whether the rod is straight by nature and all arms are half a length
   const double* natural_ahead;               // [(N - 1) x 3] see NaturalJoints; null: straight by nature
   const double* natural_behind;              // [(N - 1) x 3]
   const double* natural_twist;               // [N - 1] rad

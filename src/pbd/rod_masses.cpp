@@ -1,19 +1,18 @@
 #include "rod_masses.h"
 
-#include <algorithm>
-
 namespace deformable_manipulation {
 namespace pbd {
 
-SegmentMasses segmentMasses(const RodParameters& rod) {
-  const double l = rod.segmentLength();
+SegmentMasses segmentMasses(const RodParameters& rod, const RodPieces& pieces) {
   SegmentMasses masses;
-  masses.relative.assign(rod.segments, 1.0);
   masses.moment.assign(rod.segments, 0.0);
-  masses.inertia.assign(rod.segments, 0.0);
+  for (int i = 0; i < rod.segments; ++i) {
+    masses.relative.push_back(pieces.share(i));
+    masses.inertia.push_back(pieces.equal ? 0.0 : rod.transverseInertia(pieces.lengths[i]) - rod.transverseInertia());
+  }
   for (const PointMass& point : rod.point_masses) {
-    const int segment = std::min(static_cast<int>(point.at / l), rod.segments - 1);
-    const double offset = point.at - (segment + 0.5) * l;
+    const int segment = pieces.at(point.at);
+    const double offset = point.at - pieces.centre(segment);
     masses.relative[segment] += point.mass / rod.segmentMass();
     masses.moment[segment] += point.mass * offset;
     masses.inertia[segment] += point.mass * offset * offset;

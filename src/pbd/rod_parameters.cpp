@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "natural_shape.h"
+#include "rod_pieces.h"
 
 namespace deformable_manipulation {
 namespace pbd {
@@ -42,6 +44,11 @@ RodParameters RodParameters::read(const ParameterSection& object, const Paramete
       p.point_masses.push_back({point.number("at"), point.number("mass")});
     }
   }
+  if (object.has("grips")) {
+    for (const ParameterSection& grip : object.sections("grips")) {
+      p.grips.push_back({grip.integer("particle"), grip.numberOrAuto("length")});
+    }
+  }
   p.pose = object.section("pose").pose("position", "orientation");
   p.gravity = simulation.vector<3>("gravity");
   p.solver = simulation.choice<RodSolver>("solver",
@@ -67,7 +74,9 @@ void RodParameters::check(ParameterCheck& check) const {
                 "a quaternion of norm 1");
   checkPointMasses(check);
   if (length > 0.0 && segments >= 2 && segments <= 100000) {
-    checkNaturalShape(check);
+    if (checkGrips(check)) {
+      checkNaturalShape(check);
+    }
   }
 }
 
@@ -93,6 +102,34 @@ void RodParameters::checkNaturalShape(ParameterCheck& check) const {
                 "turns of at most 1 rad from segment to segment; take more segments");
 }
 
+//! @return whether the rod can be divided into segments
+bool RodParameters::checkGrips(ParameterCheck& check) const {
+  bool known = true;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    const std::string key = "grips." + std::to_string(i);
+    const int least = i > 0 ? grips[i - 1].particle + 1 : 0;
+    const bool in_order = grips[i].particle >= least && grips[i].particle < segments;
+    check.require(in_order, key + ".particle", grips[i].particle,
+                  "a segment, " + std::to_string(least) + " to " + std::to_string(segments - 1));
+    const double own = grips[i].length.value_or(0.0);
+    const bool fits = own >= 0.0 && own < length;
+    check.require(fits, key + ".length", own, "at least 0 and below the rod's length [m]");
+    known = known && in_order && fits;
+  }
+  if (!known || grips.empty()) {
+    return known;
+  }
+  const RodPieces pieces = rodPieces(*this);
+  const double shortest = *std::min_element(pieces.lengths.begin(), pieces.lengths.end());
+  const double sum = std::accumulate(pieces.lengths.begin(), pieces.lengths.end(), 0.0);
+  const bool divides = static_cast<int>(pieces.lengths.size()) == segments && std::abs(sum - length) < 1e-9 * length;
+  const bool fits = divides && shortest >= shortestPiece(*this);
+  check.require(fits, "grips", shortest,
+                "short enough that the segments between and beyond them are " + std::to_string(shortestPiece(*this)) +
+                    " [m] long at least, and grips of a length with a segment between them");
+  return fits;
+}
+
 void RodParameters::checkPointMasses(ParameterCheck& check) const {
   for (std::size_t i = 0; i < point_masses.size(); ++i) {
     const std::string key = "point_masses." + std::to_string(i);
@@ -112,8 +149,10 @@ double RodParameters::mass() const {
 
 double RodParameters::segmentMass() const { return density * area(radius) * segmentLength(); }
 
-double RodParameters::transverseInertia() const {
-  return segmentMass() * (3.0 * radius * radius + segmentLength() * segmentLength()) / 12.0;
+double RodParameters::transverseInertia() const { return transverseInertia(segmentLength()); }
+
+double RodParameters::transverseInertia(double length) const {
+  return density * area(radius) * length * (3.0 * radius * radius + length * length) / 12.0;
 }
 
 double RodParameters::axialInertia() const { return 0.5 * segmentMass() * radius * radius; }

@@ -19,7 +19,7 @@ constexpr double kLeastChord = 1e-3;
 }  // namespace
 
 void Rod::layOut() {
-  const std::vector<Pose> segments = layOutRod(parameters_, *natural_, holds());
+  const std::vector<Pose> segments = layOutRod(parameters_, *pieces_, *natural_, holds());
   for (std::size_t copy = 0; copy < state_->groups.size() * kLanes; ++copy) {
     placeCopy(static_cast<int>(copy), segments);
   }
@@ -30,7 +30,7 @@ void Rod::layOut() {
 
 Pose Rod::undeformedPose(int particle) const {
   requireParticle(particle);
-  return layOutRod(parameters_, *natural_, {})[particle];
+  return layOutRod(parameters_, *pieces_, *natural_, {})[particle];
 }
 
 void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
@@ -108,7 +108,7 @@ void Rod::placeState(const double* points, const double* velocities) {
   std::vector<Vector3> directions(n);
   for (int i = 0; i < n; ++i) {
     directions[i] = row(points, i + 1) - row(points, i);
-    if (directions[i].norm() < kLeastChord * parameters_.segmentLength()) {
+    if (directions[i].norm() < kLeastChord * pieces_->lengths[i]) {
       throw std::invalid_argument("points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide");
     }
   }

@@ -1,5 +1,6 @@
 // What substeps of a length cannot keep of a rod's material, in words.
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -47,7 +48,11 @@ std::string Rod::softness(double time_step, int substeps) const {
   if (parameters_.solver == RodSolver::GAUSS_SEIDEL) {
     const double h = time_step / substeps;
     const JointViscosity own = jointViscosity(parameters_, h);
-    const JointViscosity swept = sweptViscosity(parameters_, h);
+    JointViscosity swept = own;  // where it is least
+    for (int j = 0; j + 1 < parameters_.segments; ++j) {
+      const JointViscosity here = sweptViscosity(parameters_, *pieces_, j, h);
+      swept = {std::min(swept.bending, here.bending), std::min(swept.torsion, here.torsion)};
+    }
     describeViscosity("bending_retardation_time", own.bending, swept.bending, h, text);
     describeViscosity("torsion_retardation_time", own.torsion, swept.torsion, h, text);
   }

@@ -32,6 +32,8 @@ struct Rod::State {
   LaneGroups<RodLanes, HeldSegment> groups;
   std::vector<double> inverse_mass, inverse_transverse, inverse_axial;
   std::vector<double> transverse_inertia, inertia_excess, inertia_ratio, drag;
+  std::vector<double> places;          // [N] of the segments' centres, in usual lengths from the first one's
+  std::vector<JointStiffness> joints;  // [N - 1]
   std::vector<double> weight_moment, arm_before, arm_after;
   std::vector<double> offset;  // [N] m, from a segment's centre to its position in the lanes, along its tangent
   std::vector<unsigned char> joint_active;
@@ -53,6 +55,7 @@ struct Rod::State {
     input.inertia_excess = inertia_excess.data();
     input.inertia_ratio = inertia_ratio.data();
     input.drag = drag.data();
+    input.joints = joints.data();
     input.weight_moment = weight_moment.data();
     input.arm_before = arm_before.data();
     input.arm_after = arm_after.data();

@@ -6,6 +6,7 @@
 #include "deformable_manipulation/pbd/rod.h"
 #include "natural_shape.h"
 #include "rod_masses.h"
+#include "rod_pieces.h"
 #include "rod_state.h"
 #include "rod_viscosity.h"
 
@@ -36,18 +37,14 @@ constexpr double kRigidStiffness = 1e12;
 void Rod::beginStep(double h) {
   const RodParameters& p = parameters_;
   RodSubstepInput& in = state_->input;
-  const double h2 = h * h;
-  const double l = p.segmentLength();
   in.segments = p.segments;
   in.h = h;
-  in.segment_length = l;
+  in.segment_length = pieces_->usual;
   std::copy(p.gravity.data(), p.gravity.data() + 3, in.gravity);
   for (int i = 0; i < p.segments; ++i) {
-    state_->drag[i] = p.dragPerDistance() / masses_->relative[i];
+    state_->drag[i] = p.dragPerDistance() * pieces_->share(i) / masses_->relative[i];
   }
   describeJoints(h);
-  in.axial_compliance =
-      p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : axialCompliance(p.segments) / p.segmentMass();
   in.floor_compliance = kFloorCompliance / p.segmentMass();
   updateReferenceMotion();
   dampTowardsReference(h);
@@ -57,44 +54,66 @@ void Rod::beginStep(double h) {
 void Rod::describeJoints(double h) {
   const RodParameters& p = parameters_;
   RodSubstepInput& in = state_->input;
-  const double h2 = h * h;
-  const double l = p.segmentLength();
-  const double rigid = kRigidStiffness * std::min(p.axialInertia(), p.transverseInertia());
-  in.bending_compliance = l / (p.bendingStiffness() * h2);
-  in.torsion_compliance = l / (p.torsionStiffness() * h2);
-  in.bending_stiffness = std::min(1.0 / in.bending_compliance, rigid);
-  in.torsion_stiffness = std::min(1.0 / in.torsion_compliance, rigid);
+  state_->joints.resize(pieces_->joint_lengths.size());
+  for (std::size_t j = 0; j < state_->joints.size(); ++j) {
+    state_->joints[j] = jointStiffness(static_cast<int>(j), h);
+  }
   in.natural_ahead = natural_->empty() ? nullptr : natural_->ahead.data();
   in.natural_behind = natural_->behind.data();
   in.natural_twist = natural_->twist.data();
   const auto is_even = [](double offset) { return offset == 0.0; };
-  in.plain = natural_->empty() && std::all_of(state_->offset.begin(), state_->offset.end(), is_even);
+  in.plain = natural_->empty() && pieces_->equal && std::all_of(state_->offset.begin(), state_->offset.end(), is_even);
   in.bending_over_torsion = p.bendingStiffness() / p.torsionStiffness();
   in.viscous = p.bending_retardation_time > 0.0 || p.torsion_retardation_time > 0.0;
+}
+
+JointStiffness Rod::jointStiffness(int joint, double h) const {
+  const RodParameters& p = parameters_;
+  const double h2 = h * h;
+  const double l = pieces_->joint_lengths[joint];
+  const double shorter = pieces_->shorterAt(joint);
+  const double inertia = std::min(p.axialInertia() * (shorter / pieces_->usual), p.transverseInertia(shorter));
+  const double rigid = kRigidStiffness * inertia;
+  JointStiffness to;
+  to.bending_compliance = l / (p.bendingStiffness() * h2);
+  to.torsion_compliance = l / (p.torsionStiffness() * h2);
+  to.bending_stiffness = std::min(1.0 / to.bending_compliance, rigid);
+  to.torsion_stiffness = std::min(1.0 / to.torsion_compliance, rigid);
   const JointViscosity viscosity = jointViscosity(p, h);
-  in.bending_viscosity = std::min(viscosity.bending * in.bending_stiffness, rigid);
-  in.torsion_viscosity = std::min(viscosity.torsion * in.torsion_stiffness, rigid);
-  const JointViscosity swept = sweptViscosity(p, h);
-  in.bending_elasticity = 1.0 / (1.0 + swept.bending);
-  in.torsion_elasticity = 1.0 / (1.0 + swept.torsion);
-  in.bending_compliance *= in.bending_elasticity;
-  in.torsion_compliance *= in.torsion_elasticity;
+  to.bending_viscosity = std::min(viscosity.bending * to.bending_stiffness, rigid);
+  to.torsion_viscosity = std::min(viscosity.torsion * to.torsion_stiffness, rigid);
+  const JointViscosity swept = sweptViscosity(p, *pieces_, joint, h);
+  to.bending_elasticity = 1.0 / (1.0 + swept.bending);
+  to.torsion_elasticity = 1.0 / (1.0 + swept.torsion);
+  to.bending_compliance *= to.bending_elasticity;
+  to.torsion_compliance *= to.torsion_elasticity;
+  to.axial_compliance =
+      p.stretch == Stretch::FROM_MODULI ? l / (p.axialStiffness() * h2) : axialCompliance(p.segments) / p.segmentMass();
+  return to;
 }
 
 void Rod::updateReferenceMotion() {
   State& s = *state_;
   const RodParameters& p = parameters_;
   if (!holds().empty()) {
-    carriedMotion(holds(), p.segments, s.reference_velocity.data(), s.reference_angular_velocity.data());
+    s.places.resize(p.segments);
+    for (int i = 0; i < p.segments; ++i) {
+      s.places[i] = pieces_->equal ? i : pieces_->between(0, i) / pieces_->usual;
+    }
+    carriedMotion(holds(), s.places, s.reference_velocity.data(), s.reference_angular_velocity.data());
     return;
   }
   for (int i = 0; i < p.segments; ++i) {
     const RodLanes& lanes = s.groups[0];
-    s.motions[i] = {masses_->relative[i],        s.transverse_inertia[i] - p.transverseInertia(),
-                    read3(lanes.position, i, 0), tangent(read4(lanes.orientation, i, 0)),
-                    read3(lanes.velocity, i, 0), read3(lanes.angular_velocity, i, 0)};
+    s.motions[i] = {masses_->relative[i],
+                    s.transverse_inertia[i] - p.transverseInertia(),
+                    p.axialInertia() * pieces_->share(i),
+                    read3(lanes.position, i, 0),
+                    tangent(read4(lanes.orientation, i, 0)),
+                    read3(lanes.velocity, i, 0),
+                    read3(lanes.angular_velocity, i, 0)};
   }
-  rigidMotion(s.motions, p.segmentMass(), p.transverseInertia(), p.axialInertia(), s.reference_velocity.data(),
+  rigidMotion(s.motions, p.segmentMass(), p.transverseInertia(), s.reference_velocity.data(),
               s.reference_angular_velocity.data());
 }
 

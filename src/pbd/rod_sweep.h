@@ -80,6 +80,7 @@ class RodSweep {
 
   //! Moves the two segments of joint j so that it holds.
   DM_INLINE JointWrench solve(int j, Placement& first, Placement& second) {
+    const JointStiffness& stiffness = in_.joints[j];
     Inverse i0 = inverseOf(j);
     Inverse i1 = inverseOf(j + 1);
     Joint joint = pack_.joint(j, first.q, tangentOf(first.q), second.q, tangentOf(second.q));
@@ -92,15 +93,16 @@ class RodSweep {
     // [ X  Y^T ; Y  Z ] [ force ; moment ] = -[ gap ; strain ], the second row times l.
     const Pack mass = i0.mass + i1.mass + in_.floor_compliance;
     const Pack turning = plain ? half_length_ * (lever0 + lever1) : arm0 * lever0 + arm1 * lever1;
-    Symmetric3 x = addOuter(addOuter(isotropic(mass + turning), in_.axial_compliance - arm0 * lever0, joint.d0),
+    Symmetric3 x = addOuter(addOuter(isotropic(mass + turning), stiffness.axial_compliance - arm0 * lever0, joint.d0),
                             -arm1 * lever1, joint.d1);
     Matrix3 levers = crossMatrix(lever1 * joint.d1 - lever0 * joint.d0);
     Matrix3 y = {strain.change(levers.x), strain.change(levers.y), strain.change(levers.z)};
     const Pack transverse = i0.transverse + i1.transverse;
-    Symmetric3 z = addOuter(isotropic(transverse + in_.bending_compliance), -transverse, strain.bend);
+    Symmetric3 z = addOuter(isotropic(transverse + stiffness.bending_compliance), -transverse, strain.bend);
     z = addOuter(z, i0.axial - i0.transverse, strain.change(joint.d0));
     z = addOuter(z, i1.axial - i1.transverse, strain.change(joint.d1));
-    z = addOuter(z, transverse * (2.0 * joint.lean - 1.0) + (in_.torsion_compliance - in_.bending_compliance),
+    z = addOuter(z,
+                 transverse * (2.0 * joint.lean - 1.0) + (stiffness.torsion_compliance - stiffness.bending_compliance),
                  joint.d0);
 
     // Force first: x^-1 y^T, then what is left for the moment.
@@ -114,7 +116,7 @@ class RodSweep {
     }
     if (viscous) {
       Vec3 change = turnToCome(j + 1, i1, joint.d1) - pack_.turnedSince(j, first.q);
-      resisted = resistedStrain(strain, resisted, pack_.turnedSince(j + 1, second.q) + change);
+      resisted = resistedStrain(stiffness, strain, resisted, pack_.turnedSince(j + 1, second.q) + change);
     }
     Vec3 moment = q * multiplyAdd(v, gap, -resisted);
     Vec3 force = -transposedMultiplyAdd(v, moment, p * gap);
@@ -145,11 +147,12 @@ class RodSweep {
   }
 
   //! The elastic part of the strain, and the viscous part of its change.
-  DM_INLINE Vec3 resistedStrain(const Strain& strain, const Vec3& elastic, const Vec3& rotation) const {
+  DM_INLINE Vec3 resistedStrain(const JointStiffness& stiffness, const Strain& strain, const Vec3& elastic,
+                                const Vec3& rotation) const {
     Vec3 change = strain.change(rotation);
     Vec3 rest = elastic - change;
-    const Pack bending = broadcast(in_.bending_elasticity);
-    const Pack torsion = in_.torsion_elasticity - bending;
+    const Pack bending = broadcast(stiffness.bending_elasticity);
+    const Pack torsion = stiffness.torsion_elasticity - bending;
     return change + scaleAdd(torsion * dot(strain.d0, rest), strain.d0, bending * rest);
   }
 

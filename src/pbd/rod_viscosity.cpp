@@ -17,11 +17,13 @@ JointViscosity jointViscosity(const RodParameters& rod, double h) {
   return {rod.bending_retardation_time / h, rod.torsion_retardation_time / h};
 }
 
-JointViscosity sweptViscosity(const RodParameters& rod, double h) {
+JointViscosity sweptViscosity(const RodParameters& rod, const RodPieces& pieces, int joint, double h) {
   const JointViscosity own = jointViscosity(rod, h);
-  const double h2_per_length = h * h / rod.segmentLength();
-  return {swept(own.bending, rod.bendingStiffness() * h2_per_length, rod.transverseInertia()),
-          swept(own.torsion, rod.torsionStiffness() * h2_per_length, rod.axialInertia())};
+  const double h2_per_length = h * h / pieces.joint_lengths[joint];
+  const double shorter = pieces.shorterAt(joint);
+  const double axial = rod.axialInertia() * (shorter / pieces.usual);
+  return {swept(own.bending, rod.bendingStiffness() * h2_per_length, rod.transverseInertia(shorter)),
+          swept(own.torsion, rod.torsionStiffness() * h2_per_length, axial)};
 }
 
 }  // namespace pbd

@@ -1,10 +1,12 @@
 // Obstacles of points for Python.
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "deformable_manipulation/distance/cloud_obstacle.h"
+#include "deformable_manipulation/distance/depth_smoothing.h"
 #include "deformable_manipulation/distance/near_elements.h"
 #include "distance_arguments.h"
 
@@ -33,12 +35,15 @@ std::shared_ptr<PointCloud> toCloud(const py::array& given) {
 
 using Clouds = std::vector<std::shared_ptr<const PointCloud>>;
 
-std::vector<NearElement> toElements(const Points& corners, const Points& reaches) {
+std::vector<NearElement> toElements(const Points& corners, const Points& reaches, const Points& farthest) {
   if (corners.ndim() != 3 || corners.shape(1) != 3 || corners.shape(2) != 3) {
     throw py::value_error("elements must have the shape (elements, 3, 3)");
   }
   if (reaches.ndim() != 1 || reaches.shape(0) != corners.shape(0)) {
     throw py::value_error("there must be one reach for each element");
+  }
+  if (farthest.size() > 0 && (farthest.ndim() != 1 || farthest.shape(0) != corners.shape(0))) {
+    throw py::value_error("there must be one farthest distance for each element, or none");
   }
   std::vector<NearElement> elements(static_cast<std::size_t>(corners.shape(0)));
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -46,6 +51,9 @@ std::vector<NearElement> toElements(const Points& corners, const Points& reaches
       elements[i].corners[k] = Eigen::Map<const Vector3>(corners.data() + 9 * i + 3 * k);
     }
     elements[i].reach = reaches.data()[i];
+    if (farthest.size() > 0) {
+      elements[i].farthest = farthest.data()[i];
+    }
   }
   return elements;
 }
@@ -60,10 +68,27 @@ py::array_t<bool> marked(const py::array& given, const NearElements& elements) {
   return marks;
 }
 
-py::array_t<bool> nearElements(const py::array& points, const Points& corners, const Points& reaches) {
+py::array_t<bool> nearElements(const py::array& points, const Points& corners, const Points& reaches,
+                               const Points& farthest, const Numbers3& origin, double doubt) {
   requirePoints(points);
-  const NearElements elements(toElements(corners, reaches));
+  const NearElements elements(toElements(corners, reaches, farthest), Rays{toVector(origin), doubt});
   return points.dtype().is(py::dtype::of<float>()) ? marked<float>(points, elements) : marked<double>(points, elements);
+}
+
+using Depths = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+Depths smoothed(const Depths& depths, double noise) {
+  if (depths.ndim() != 2) {
+    throw py::value_error("depths must have the shape (rows, columns)");
+  }
+  if (!(noise > 0.0 && std::isfinite(noise))) {
+    throw py::value_error("noise must be a number above 0");
+  }
+  Depths factors({depths.shape(0), depths.shape(1)});
+  float* to = factors.mutable_data();
+  const py::gil_scoped_release others_go_on;
+  smoothDepths(depths.data(), static_cast<int>(depths.shape(0)), static_cast<int>(depths.shape(1)), noise, to);
+  return factors;
 }
 
 }  // namespace
@@ -90,9 +115,20 @@ void bindCloudObstacle(py::module_& module) {
              return std::make_shared<CloudObstacle>(Clouds(clouds.begin(), clouds.end()), radius);
            }),
            py::arg("clouds"), py::arg("radius"));
-  module.def("near_elements", &nearElements, py::arg("points"), py::arg("elements"), py::arg("reaches"),
-             "Which of the points (N, 3) [m] are within the reaches (E,) [m] of elements (E, 3, 3) [m]: triangles, or\n"
-             "segments as start, end, end, or points three times. Flags (N,); points that are not finite are near "
-             "nothing.\n"
-             "Raises ValueError: a shape is wrong, or a number of an element is not finite.");
+  module.def(
+      "near_elements", &nearElements, py::arg("points"), py::arg("elements"), py::arg("reaches"),
+      py::arg("farthest") = Points(0), py::arg("origin") = Numbers3{0.0, 0.0, 0.0}, py::arg("doubt") = 0.0,
+      "Which of the points (N, 3) [m] are within the reaches (E,) [m] of elements (E, 3, 3) [m]: triangles, or\n"
+      "segments as start, end, end, or points three times. Flags (N,); points that are not finite are near "
+      "nothing.\n\n"
+      "With a doubt [1/m], a point at the distance r from the origin (3,) [m] may be elsewhere on its ray, by up\n"
+      "to doubt * r^2 either way; points themselves farther away than `farthest` (E,) [m] do not count.\n"
+      "Raises ValueError: a shape is wrong, or a number of an element or the rays is not finite.");
+  module.def(
+      "smoothing_factors", &smoothed, py::arg("depths"), py::arg("noise"),
+      "Factors (H, W), by which to multiply the points of a depth image (H, W) [m] to smooth them. Its noise is\n"
+      "normal, with the standard deviation noise * depth^2, with `noise` [m] at 1 m. Where the depths of 5 x 5\n"
+      "pixels do not lie on a plane as well as that explains, or less than half of them are known, the factor is "
+      "1.\n"
+      "No point moves by more than five standard deviations. Raises ValueError: a shape or the noise is wrong.");
 }

@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +17,8 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
                              double drag_coefficient, double bending_retardation_time, double torsion_retardation_time,
                              const Eigen::Vector2d& natural_curvature, double natural_twist,
                              const std::vector<Vector3>& natural_points,
-                             const std::vector<std::pair<double, double>>& point_masses, const std::string& solver,
+                             const std::vector<std::pair<double, double>>& point_masses,
+                             const std::vector<std::pair<int, std::optional<double>>>& grips, const std::string& solver,
                              int threads, const Vector3& gravity, const Vector3& position, const Vector4& orientation) {
   RodParameters p;
   p.length = length;
@@ -33,6 +35,9 @@ std::unique_ptr<Rod> makeRod(double length, double radius, double density, int s
   p.natural_shape = {natural_curvature, natural_twist, natural_points};
   for (const auto& [at, mass] : point_masses) {
     p.point_masses.push_back({at, mass});
+  }
+  for (const auto& [particle, held] : grips) {
+    p.grips.push_back({particle, held});
   }
   p.solver =
       choose<RodSolver>("solver", solver, {{"gauss_seidel", RodSolver::GAUSS_SEIDEL}, {"direct", RodSolver::DIRECT}});
@@ -83,7 +88,9 @@ void bindRod(py::module_& module) {
       "retardation times [s] of bending and twist (viscosity\n"
       "over stiffness), natural_curvature (2,) about the segments' y and z axes [1/m], natural_twist\n"
       "[rad/m], natural_points (K, 3) [m] in place of the curvature, point_masses: pairs of the place\n"
-      "along the rod [m] and the mass [kg]; gravity (3,) [m/s^2]; stretch 'zero' or 'from_moduli';\n"
+      "along the rod [m] and the mass [kg]; grips: pairs of a held segment and the length [m] that its\n"
+      "gripper keeps straight, None for a segment of the usual length; gravity (3,) [m/s^2]; stretch 'zero' or "
+      "'from_moduli';\n"
       "solver 'direct' or 'gauss_seidel'; threads that advance the copies, eight each. Undeformed it "
       "lies along the x axis of the pose given by\n"
       "position (3,) [m] and orientation (4,). Raises ParameterError.")
@@ -92,9 +99,13 @@ void bindRod(py::module_& module) {
            py::arg("damping"), py::arg("drag_coefficient") = 0.0, py::arg("bending_retardation_time") = 0.0,
            py::arg("torsion_retardation_time") = 0.0, py::arg("natural_curvature") = Eigen::Vector2d::Zero().eval(),
            py::arg("natural_twist") = 0.0, py::arg("natural_points") = std::vector<Vector3>(),
-           py::arg("point_masses") = std::vector<std::pair<double, double>>(), py::arg("solver"),
+           py::arg("point_masses") = std::vector<std::pair<double, double>>(),
+           py::arg("grips") = std::vector<std::pair<int, std::optional<double>>>(), py::arg("solver"),
            py::arg("threads") = 1, py::arg("gravity"), py::arg("position") = Vector3::Zero().eval(),
-           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0));
+           py::arg("orientation") = Vector4(0.0, 0.0, 0.0, 1.0))
+      .def_property_readonly("arc_lengths", &Rod::arcLengths, "Of the segments' ends (N + 1,) [m].")
+      .def_property_readonly("joint_lengths", &Rod::jointLengths,
+                             "Length of the rod that bends in each joint (N - 1,) [m].");
 }
 
 void bindRestShapes(py::module_& module) {

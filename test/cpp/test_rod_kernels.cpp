@@ -32,10 +32,6 @@ class RodInput {
     in_.segment_length = 0.1;
     in_.gravity[2] = -9.81;
     in_.inertia_ratio = ratio_.data();
-    in_.bending_stiffness = 0.03 * in_.h * in_.h / in_.segment_length;
-    in_.torsion_stiffness = 0.02 * in_.h * in_.h / in_.segment_length;
-    in_.bending_compliance = 1.0 / in_.bending_stiffness;
-    in_.torsion_compliance = 1.0 / in_.torsion_stiffness;
     drag_.assign(kSegments, viscous ? 0.5 : 0.0);
     in_.drag = drag_.data();
     in_.weight_moment = zero_.data();
@@ -46,11 +42,10 @@ class RodInput {
       describeNaturalShape();
     }
     in_.viscous = viscous;
-    in_.bending_viscosity = in_.torsion_viscosity = 3.0 * in_.bending_stiffness;
-    in_.bending_elasticity = in_.torsion_elasticity = viscous ? 0.25 : 1.0;
-    in_.bending_compliance *= in_.bending_elasticity;
-    in_.torsion_compliance *= in_.torsion_elasticity;
-    in_.axial_compliance = 1e-3;
+    for (int j = 0; j + 1 < kSegments; ++j) {
+      describeJoint(j, viscous, natural && j < 3 ? 0.6 : 1.0);
+    }
+    in_.joints = joints_.data();
     in_.floor_compliance = 1e-6;
     in_.inverse_mass = inverse_mass_.data();
     in_.inverse_transverse = inverse_transverse_.data();
@@ -75,6 +70,19 @@ class RodInput {
   }
 
  private:
+  //! @param share of a segment's length over which it bends
+  void describeJoint(int j, bool viscous, double share) {
+    const double h2 = in_.h * in_.h;
+    JointStiffness& joint = joints_[j];
+    joint.bending_stiffness = 0.03 * h2 / (share * in_.segment_length);
+    joint.torsion_stiffness = 0.02 * h2 / (share * in_.segment_length);
+    joint.bending_viscosity = joint.torsion_viscosity = 3.0 * joint.bending_stiffness;
+    joint.bending_elasticity = joint.torsion_elasticity = viscous ? 0.25 : 1.0;
+    joint.bending_compliance = joint.bending_elasticity / joint.bending_stiffness;
+    joint.torsion_compliance = joint.torsion_elasticity / joint.torsion_stiffness;
+    joint.axial_compliance = 1e-3;
+  }
+
   //! Bent and twisted by nature, with a heavy segment in the middle.
   void describeNaturalShape() {
     before_[6] = 0.0505;
@@ -107,6 +115,7 @@ class RodInput {
   std::vector<unsigned char> active_ = std::vector<unsigned char>(kSegments - 1, 1);
   AlignedArray workspace_ = AlignedArray(rodWorkspaceSize(kSegments));
   HeldSegment held_[2] = {};
+  std::vector<JointStiffness> joints_ = std::vector<JointStiffness>(kSegments - 1);
   RodSubstepInput in_{};
 };
 

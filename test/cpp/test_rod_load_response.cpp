@@ -20,6 +20,7 @@ struct Held {
   double tilt;                        // rad, of the last hold about x
   Vector3 natural = {0.0, 0.0, 0.0};  // twist and curvatures without load [1/m]
   std::vector<PointMass> point_masses = {};
+  std::vector<Grip> grips = {};
 };
 
 std::unique_ptr<Rod> settled(const Held& given) {
@@ -30,6 +31,7 @@ std::unique_ptr<Rod> settled(const Held& given) {
   p.natural_shape.twist = given.natural[0];
   p.natural_shape.curvature = given.natural.tail<2>();
   p.point_masses = given.point_masses;
+  p.grips = given.grips;
   auto rod = std::make_unique<Rod>(p);
   for (const auto& [particle, type] : given.holds) {
     const double along = 1.9 * particle / (p.segments - 1);
@@ -166,7 +168,15 @@ INSTANTIATE_TEST_SUITE_P(
              1e9,
              0.0,
              {0.5, 0.3, 0.2},
-             {{0.0, 0.1}, {0.7, 0.02}, {2.25, 0.05}}}),
+             {{0.0, 0.1}, {0.7, 0.02}, {2.25, 0.05}}},
+        Held{"gripped",
+             {{0, Hold::CLAMPED}, {14, Hold::CLAMPED}, {24, Hold::PINNED}},
+             Stretch::FROM_MODULI,
+             1e9,
+             0.0,
+             {0.5, 0.3, 0.2},
+             {{0.7, 0.02}},
+             {{0, 0.03}, {14, 0.05}, {24, {}}}}),
     [](const auto& info) { return std::string(info.param.name); });
 
 //! A long limp chain between level ends.

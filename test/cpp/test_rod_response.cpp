@@ -23,6 +23,7 @@ struct Grips {
   double twist = 0.0;                 // rad, of the last hold
   Vector3 natural = {0.0, 0.0, 0.0};  // twist and curvatures without load [1/m]
   std::vector<PointMass> point_masses = {};
+  std::vector<Grip> lengths = {};
 };
 
 std::unique_ptr<Rod> heldRod(const Grips& grips) {
@@ -33,6 +34,7 @@ std::unique_ptr<Rod> heldRod(const Grips& grips) {
   p.natural_shape.twist = grips.natural[0];
   p.natural_shape.curvature = grips.natural.tail<2>();
   p.point_masses = grips.point_masses;
+  p.grips = grips.lengths;
   auto rod = std::make_unique<Rod>(p);
   for (const auto& [particle, type] : grips.holds) {
     const double along = 1.5 * particle / (p.segments - 1);
@@ -237,6 +239,22 @@ INSTANTIATE_TEST_SUITE_P(
               0.0,
               {0.5, 0.3, 0.2},
               {{0.0, 0.01}, {0.7, 0.02}, {2.25, 0.01}}},
+        Grips{"gripped",
+              {{0, Hold::CLAMPED}, {27, Hold::CLAMPED}},
+              Stretch::ZERO,
+              30e6,
+              0.0,
+              {0.0, 0.0, 0.0},
+              {},
+              {{0, 0.02}, {27, 0.02}}},
+        Grips{"grippedInside",
+              {{2, Hold::CLAMPED}, {13, Hold::PINNED}, {24, Hold::CLAMPED}},
+              Stretch::FROM_MODULI,
+              30e6,
+              0.0,
+              {0.3, 0.2, 0.1},
+              {{0.5, 0.05}},
+              {{2, 0.03}, {13, {}}, {24, 0.0}}},
         Grips{"oneHold", {{5, Hold::CLAMPED}}, Stretch::ZERO, 30e6}),
     [](const testing::TestParamInfo<Grips>& info) { return info.param.name; });
 

@@ -59,7 +59,7 @@ def record(spec=ROPE, frames=150, still=30, noise=0.0, seed=1):
         shapes.append(body.points()[0, ends])
     points = np.array(shapes)
     points += noise * np.random.default_rng(seed).standard_normal(points.shape)
-    arc_lengths = np.array(ends) * spec.length / spec.segments
+    arc_lengths = np.array(spec.arc_lengths)[ends]
     return MeasuredShapes(STEP * np.arange(frames), arc_lengths, points)
 
 

@@ -18,8 +18,8 @@ namespace control {
 //! carries nothing, m_i w that of segment i with its point masses, and e_i w the moment of masses off its centre.
 class JointLoads {
  public:
-  //! @param section with the keys `weight` [N] of a segment that carries nothing, `masses`, a row (m, e [m]) per
-  //! segment, and `particles`, the segment that each agent holds
+  //! @param section with the keys `weight` [N] of a segment of the usual length that carries nothing, `masses`, a row
+  //! (m, e [m]) per segment, and `particles`, the segment that each agent holds
   JointLoads(const ParameterSection& section, const Team& team);
 
   //! [N] On the joint's first segment.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ class ParameterSection {
   bool has(const std::string& key) const { return value_[key].as<std::monostate>() == nullptr; }
 
   double number(const std::string& key) const { return toNumber(value_[key], pathOf(key)); }
+  std::optional<double> numberOrAuto(const std::string& key) const;  //!< none: `auto`
   int integer(const std::string& key) const;
   bool flag(const std::string& key) const;
   std::string text(const std::string& key) const;
@@ -39,6 +41,7 @@ class ParameterSection {
   pbd::Pose pose(const std::string& position, const std::string& orientation) const;
 
   std::vector<std::string> texts(const std::string& key) const;
+  std::vector<double> numbers(const std::string& key) const;
   std::vector<int> integers(const std::string& key) const;
   std::vector<pbd::Vector3> vectors(const std::string& key) const;
   std::vector<ParameterSection> sections(const std::string& key) const;

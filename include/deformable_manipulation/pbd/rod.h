@@ -10,7 +10,9 @@
 namespace deformable_manipulation {
 namespace pbd {
 
+struct JointStiffness;
 struct NaturalJoints;
+struct RodPieces;
 struct SegmentMasses;
 
 //! A rope or rod: rigid segments, joined by zero-stretch bending-twisting constraints (Deul et al.
@@ -25,6 +27,7 @@ class Rod final : public Body {
   ~Rod() override;
 
   const RodParameters& parameters() const { return parameters_; }
+  const std::shared_ptr<const RodPieces>& pieces() const { return pieces_; }
   const std::shared_ptr<const NaturalJoints>& naturalJoints() const { return natural_; }
   const std::shared_ptr<const SegmentMasses>& segmentMasses() const { return masses_; }
 
@@ -38,6 +41,7 @@ class Rod final : public Body {
   int particleCount() const override { return parameters_.segments; }
   int pointCount() const override { return parameters_.segments + 1; }
   std::vector<double> arcLengths() const override;
+  std::vector<double> jointLengths() const;  //!< [N - 1] m, of the rod that bends in each joint
   double freeLength(int particle, int other) const override;
   Pose undeformedPose(int particle) const override;
   bool particlesTurn() const override { return true; }
@@ -89,6 +93,7 @@ class Rod final : public Body {
   void shiftPositions(int segment, double by);
   Vector3 centre(int segment, int copy) const;
   void describeJoints(double h);
+  JointStiffness jointStiffness(int joint, double h) const;
   void closeGaps();
   void updateReferenceMotion();
   void dampTowardsReference(double h);
@@ -98,7 +103,8 @@ class Rod final : public Body {
   std::vector<Quaternion> framesFrom(int start, const Quaternion& frame, const std::vector<Vector3>& directions) const;
 
   RodParameters parameters_;
-  std::shared_ptr<const NaturalJoints> natural_;  // shared with clones
+  std::shared_ptr<const RodPieces> pieces_;  // shared with clones, as are the two below
+  std::shared_ptr<const NaturalJoints> natural_;
   std::shared_ptr<const SegmentMasses> masses_;
   std::unique_ptr<State> state_;
 };

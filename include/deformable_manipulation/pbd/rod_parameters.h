@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "deformable_manipulation/parameters/parameter_section.h"
@@ -39,6 +40,12 @@ struct PointMass {
   double mass;  //!< [kg]
 };
 
+//! A place that an agent holds.
+struct Grip {
+  int particle;                  //!< held segment
+  std::optional<double> length;  //!< [m] of the rod that the gripper keeps straight; none: it holds a usual segment
+};
+
 //! A rod of circular cross-section. Only the values are here; ranges, defaults and meanings of the keys are
 //! declared in Python, see docs/parameters.md.
 struct RodParameters {
@@ -55,6 +62,7 @@ struct RodParameters {
   double torsion_retardation_time = 0.0;  //!< [s] likewise of twist
   NaturalShape natural_shape;
   std::vector<PointMass> point_masses;
+  std::vector<Grip> grips;  //!< in the order of their segments; those next to a grip of a length are shorter
   RodSolver solver;
   int threads = 1;  //!< that advance the copies, eight in each; results do not depend on it
   Vector3 gravity;  //!< [m/s^2]
@@ -67,9 +75,10 @@ struct RodParameters {
   void check(ParameterCheck& check) const;
 
   double mass() const;                                        //!< [kg] of all, with the point masses
-  double segmentLength() const { return length / segments; }  //!< [m]
+  double segmentLength() const { return length / segments; }  //!< [m] the usual one
   double segmentMass() const;                                 //!< [kg] without point masses
   double transverseInertia() const;                           //!< [kg m^2] of a segment, across its axis
+  double transverseInertia(double length) const;              //!< [kg m^2] likewise, of one of a length [m]
   double axialInertia() const;                                //!< [kg m^2] of a segment, about its axis
   double dragPerDistance() const;                             //!< [1/m] speed lost across the axis, per way through air
   double bendingStiffness() const;                            //!< E I [N m^2]
@@ -79,6 +88,7 @@ struct RodParameters {
  private:
   void checkNaturalShape(ParameterCheck& check) const;
   void checkPointMasses(ParameterCheck& check) const;
+  bool checkGrips(ParameterCheck& check) const;
 };
 
 }  // namespace pbd

@@ -40,10 +40,25 @@ def rviz_configuration(scenario):
         scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`.
     """
     low, high = _scene(scenario)
+    seen = any(obstacle.is_live for obstacle in scenario.obstacles)
+    # What is in front of the scene may be as high as it.
+    pitch = _ONTO if seen else None
+    displays = [*_displays(scenario), *_clouds(scenario)]
+    return configuration_around(low, high, scenario.frame, displays, pitch)
+
+
+def configuration_around(low, high, frame, displays=(), pitch=None):
+    """The same for what happens between two corners (3,) [m].
+
+    Args:
+        frame: the fixed one.
+        displays: beside the grid, as of YAML; none: the markers on ``markers``.
+        pitch: of the perspective [rad]; None: the usual one.
+    """
     flat = high[0] - low[0] < _FLAT * (high[1] - low[1])  # all goes on in the plane YZ
     perspective = _perspective(low, high, flat)
-    if any(obstacle.is_live for obstacle in scenario.obstacles):
-        perspective["Pitch"] = _ONTO  # what is in front of the scene may be as high as it
+    if pitch is not None:
+        perspective["Pitch"] = pitch
     return {
         "Panels": [
             {"Class": "rviz/Displays", "Name": "Displays", "Splitter Ratio": 0.5},
@@ -51,12 +66,12 @@ def rviz_configuration(scenario):
         ],
         "Visualization Manager": {
             "Class": "",
-            "Displays": [_grid(low, high, flat), *_displays(scenario), *_clouds(scenario)],
+            "Displays": [_grid(low, high, flat), *(displays or _DISPLAYS[:1])],
             "Enabled": True,
             "Global Options": {
                 "Background Color": "250; 250; 250",
                 "Default Light": True,
-                "Fixed Frame": scenario.frame,
+                "Fixed Frame": frame,
                 "Frame Rate": 30,
             },
             "Name": "root",

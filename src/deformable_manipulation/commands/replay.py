@@ -22,13 +22,16 @@ DESCRIPTION = """Drive the grips of a simulated rope or fabric as those of a rea
 compare the points that were measured with the same points of the simulation. Prints the mean error
 per coordinate, the mean and the largest distance, and the mean while the object was at rest and
 while it moved. Writes replay.png (shapes and distances over time), predicted.csv (in the format of
-the recording) and difference.json (the numbers)."""
+the recording), difference.json (the numbers), and replay.bag and replay.rviz, which show both
+objects over time in RViz."""
 EPILOG = """examples:
   replay swing.csv --object my_rope.yaml
   replay swing.csv --object my_rope.yaml --set object.damping=0 --set object.young_modulus=2e7
   replay swing.csv --object my_rope.yaml --held 0 --held 11,12    pinned, and clamped
   replay swing.csv --object my_rope.yaml --from 2 --to 7 --output out
   replay shake.csv --object my_cloth.yaml --held 0 --held 4       a cloth, by two vertices
+
+  rosbag play --loop out/replay.bag & rviz -d out/replay.rviz     with a roscore
 
 The format of a recording is in docs/real_objects.md.
 
@@ -63,6 +66,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 def _replay(arguments, measured, shapes) -> int:
     from deformable_manipulation.replaying.difference import describe, difference
     from deformable_manipulation.replaying.measured_shapes import MeasuredShapesError
+    from deformable_manipulation.replaying.overlay import Overlay
     from deformable_manipulation.replaying.replay import Replay, ReplayOptions
 
     if len(shapes.time) < 2:
@@ -82,29 +86,35 @@ def _replay(arguments, measured, shapes) -> int:
     if softness:
         print(f"{NAME}: WARNING: {softness}", file=sys.stderr)
     folder = writable_folder(arguments.output or Path("output") / Path(arguments.recording).stem)
-    predicted = replay.run(measured.spec)
+    whole = replay.run_whole(measured.spec)
+    predicted = replay.measured(whole)
     found = difference(shapes, predicted)
     for line in describe(found.numbers):
         print(line)
-    _write(folder, shapes, predicted, found)
+    edges, _ = measured.spec.edges()
+    _write(folder, Overlay(shapes, predicted, whole, edges), found)
     return 0
 
 
-def _write(folder: Path, shapes, predicted, found) -> None:
+def _write(folder: Path, overlay, found) -> None:
     from deformable_manipulation.plots.replay_plot import plot_replay
     from deformable_manipulation.plots.style import save_figure
     from deformable_manipulation.replaying.measured_shapes import (
         MeasuredShapes,
         write_measured_shapes,
     )
+    from deformable_manipulation.replaying.overlay import overlay_configuration, write_overlay_bag
 
+    shapes, predicted = overlay.shapes, overlay.predicted
     save_figure(plot_replay(shapes, predicted, found), folder / "replay.png")
     write_measured_shapes(
         folder / "predicted.csv", MeasuredShapes(shapes.time, shapes.places, predicted)
     )
     text = json.dumps({name: _finite(value) for name, value in found.numbers.items()}, indent=2)
     (folder / "difference.json").write_text(text + "\n", encoding="utf-8")
-    for name in ("replay.png", "predicted.csv", "difference.json"):
+    write_overlay_bag(folder / "replay.bag", overlay)
+    (folder / "replay.rviz").write_text(overlay_configuration(overlay), encoding="utf-8")
+    for name in ("replay.png", "predicted.csv", "difference.json", "replay.bag", "replay.rviz"):
         print(folder / name)
 
 

@@ -19,6 +19,7 @@ CASE_NAMES = (
     "twist",
     "free",
     "holds",
+    "grips",
     "convergence",
     "motion",
     "viscosity",

@@ -9,8 +9,9 @@ from deformable_manipulation.markdown.table import millimetres, table
 _CAMERA, _MAP = "rope_over_depth_camera", "fabric_over_octomap"
 _RUNS: Sequence[Tuple[str, Tuple[str, ...]]] = (
     (_CAMERA, ()),
-    (_CAMERA, ("camera.noise=0", "camera.holes=0")),
-    (_CAMERA, ("camera.noise=0.002",)),
+    (_CAMERA, ("camera.noise=0", "camera.holes=0", "obstacles.1.noise=0")),
+    (_CAMERA, ("camera.noise=0.002", "obstacles.1.noise=0.002")),
+    (_CAMERA, ("obstacles.1.noise=0",)),
     (_CAMERA, ("obstacles.1.hold=0",)),
     (_MAP, ()),
 )

@@ -4,7 +4,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Callable, Iterator, Optional, Tuple
+from typing import Callable, Iterator, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.geometry.rotation import rotate
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.objects.common import DAMPING, LARGEST_VALID_STRETCH, kind_keys
+from deformable_manipulation.objects.grip import GRIP, Grip, check_grips
 from deformable_manipulation.objects.natural_shape import (
     NATURAL_SHAPE,
     NaturalShape,
@@ -129,6 +130,15 @@ class RodSpec(ObjectSpec):
         default_text="none",
         native=True,
     )
+    grips: Tuple[Grip, ...] = parameter(
+        Items(GRIP),
+        "Where it is held, if a gripper keeps another length than that of a segment straight. It "
+        "follows from the agents' `grip_length`; give it where there are no agents, as for "
+        "`replay`. See [real_objects.md](real_objects.md#what-a-clamp-holds).",
+        default=(),
+        default_text="from the agents",
+        native=True,
+    )
     pose: Pose = parameter(
         POSE,
         "Pose of the undeformed object.",
@@ -164,15 +174,13 @@ class RodSpec(ObjectSpec):
     def edges(self) -> Tuple[np.ndarray, np.ndarray]:
         """The segments; see :meth:`.ObjectSpec.edges`."""
         ends = np.arange(self.segments)
-        lengths = np.full(self.segments, self.length / self.segments)
-        return np.stack((ends, ends + 1), axis=1), lengths
+        return np.stack((ends, ends + 1), axis=1), np.array(self.segment_lengths)
 
     def particle_position(self, particle: int) -> Vector:
         """Centre of a segment of the undeformed rod [m], in the fixed frame."""
         if self.natural_shape is not None:
             return _natural_poses(self)[0][particle]
-        along = (particle + 0.5) * self.length / self.segments
-        offset = rotate(self.pose.orientation, (along, 0.0, 0.0))
+        offset = rotate(self.pose.orientation, (self.centre(particle), 0.0, 0.0))
         return tuple(p + o for p, o in zip(self.pose.position, offset))
 
     def particle_orientation(self, particle: int) -> Quaternion:
@@ -183,7 +191,64 @@ class RodSpec(ObjectSpec):
 
     def free_length(self, first: int, second: int) -> float:
         """Length of rod [m] between the centres of two segments."""
-        return self.length / self.segments * abs(first - second)
+        if self.has_equal_segments:
+            return self.length / self.segments * abs(first - second)
+        return abs(self.centre(first) - self.centre(second))
+
+    def held_by(self, grips: Sequence[Tuple[int, Optional[float]]]) -> "RodSpec":
+        """See :meth:`.ObjectSpec.held_by`."""
+        own = any(length is not None for _, length in grips)
+        held = tuple(Grip(*grip) for grip in sorted(grips)) if own else ()
+        return dataclasses.replace(self, grips=held)
+
+    def division_problem(self) -> Optional[str]:
+        """Why it cannot be divided into segments next to its grips, None if it can."""
+        from deformable_manipulation import _pbd  # late, see make_body
+
+        try:
+            self.arc_lengths  # noqa: B018
+        except _pbd.ParameterError as error:
+            return str(error)
+        return None
+
+    @property
+    def has_equal_segments(self) -> bool:
+        """Whether all segments are as long: no grip has a length of its own."""
+        return all(grip.length is None for grip in self.grips)
+
+    @property
+    def segment_lengths(self) -> Tuple[float, ...]:
+        """Lengths of all segments [m]."""
+        if self.has_equal_segments:
+            return (self.length / self.segments,) * self.segments
+        return tuple(np.diff(self.arc_lengths))
+
+    @property
+    def arc_lengths(self) -> Tuple[float, ...]:
+        """Arc lengths of the segments' ends [m] from the rod's first end."""
+        if self.has_equal_segments:
+            return tuple(np.arange(self.segments + 1) * self.length / self.segments)
+        return _divided(self)[0]
+
+    @property
+    def joint_lengths(self) -> Tuple[float, ...]:
+        """Length of rod [m] that bends in each joint."""
+        if self.has_equal_segments:
+            return (self.length / self.segments,) * (self.segments - 1)
+        return _divided(self)[1]
+
+    def segment_at(self, place: float) -> int:
+        """The segment at an arc length [m]; beyond the ends, the last one there."""
+        if self.has_equal_segments:
+            return int(np.clip(place / self.length * self.segments, 0, self.segments - 1))
+        after = int(np.searchsorted(self.arc_lengths, place, side="right"))
+        return min(max(after - 1, 0), self.segments - 1)
+
+    def centre(self, particle: int) -> float:
+        """Arc length [m] of a segment's centre."""
+        if self.has_equal_segments:
+            return (particle + 0.5) * self.length / self.segments
+        return 0.5 * (self.arc_lengths[particle] + self.arc_lengths[particle + 1])
 
     def substeps(self, time_step: float) -> int:
         """What suffices for the direct solver."""
@@ -208,7 +273,8 @@ class RodSpec(ObjectSpec):
 
     def refined(self, factor: int) -> "RodSpec":
         """The same rod in ``factor`` times as many segments."""
-        return dataclasses.replace(self, segments=factor * self.segments)
+        finer = dataclasses.replace(self, segments=factor * self.segments, grips=())
+        return finer.held_by([(factor * g.particle + factor // 2, g.length) for g in self.grips])
 
     def with_random_material(self, draw: Callable[[], float]) -> "RodSpec":
         """Both moduli have the same factor."""
@@ -240,12 +306,14 @@ class RodSpec(ObjectSpec):
         And moments (N,) [kg m] of masses off the segments' centres, towards the last end.
         """
         piece = self.length / self.segments
-        masses = np.full(self.segments, self.mass_per_length * self.length / self.segments)
+        lengths = np.array(self.segment_lengths)
+        masses = self.mass_per_length * self.length / self.segments * (lengths / piece)
         moments = np.zeros(self.segments)
+        ends = np.array(self.arc_lengths)
         for point in self.point_masses:
-            segment = min(int(point.at / piece), self.segments - 1)
+            segment = min(int(np.searchsorted(ends, point.at, "right")) - 1, self.segments - 1)
             masses[segment] += point.mass
-            moments[segment] += point.mass * (point.at - (segment + 0.5) * piece)
+            moments[segment] += point.mass * (point.at - 0.5 * (ends[segment] + ends[segment + 1]))
         return masses, moments
 
     @property
@@ -265,8 +333,14 @@ class RodSpec(ObjectSpec):
 
     def description(self) -> str:
         """What it is, in a few words."""
-        return "rod of {:g} m, radius {:g} m, {} segments".format(
-            self.length, self.radius, self.segments
+        lengths = self.segment_lengths
+        sizes = (
+            ""
+            if self.has_equal_segments
+            else " of {:.2g} to {:.2g} m".format(min(lengths), max(lengths))
+        )
+        return "rod of {:g} m, radius {:g} m, {} segments{}".format(
+            self.length, self.radius, self.segments, sizes
         )
 
     def material_description(self) -> str:
@@ -300,10 +374,21 @@ def read_rod(node: Node) -> RodSpec:
     fits = (
         check_natural_shape(node, rod.natural_shape, rod.length, rod.segments),
         check_point_masses(node, rod.point_masses, rod.length),
+        check_grips(node, rod.grips, rod.length, rod.segments),
     )
-    if not all(fits):
+    problem = rod.division_problem() if all(fits) else None
+    if problem is not None:
+        node.report.add(node.path + ("grips",), problem)
+    if problem is not None or not all(fits):
         raise Unreadable
     return rod
+
+
+@lru_cache(maxsize=16)
+def _divided(rod: RodSpec) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+    """Arc lengths of the segments' ends and what bends in each joint [m]."""
+    body = make_body(rod)
+    return tuple(map(float, body.arc_lengths)), tuple(map(float, body.joint_lengths))
 
 
 @lru_cache(maxsize=16)

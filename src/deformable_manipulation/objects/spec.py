@@ -1,7 +1,7 @@
 """What every kind of object has."""
 
 from abc import ABC, abstractmethod
-from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Tuple
+from typing import Any, Callable, ClassVar, Dict, Iterator, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -68,6 +68,15 @@ class ObjectSpec(ABC):
     @abstractmethod
     def free_length(self, first: int, second: int) -> float:
         """Greatest distance [m] between two particles that does not stretch the object."""
+
+    def held_by(self, grips: Sequence[Tuple[int, Optional[float]]]) -> "ObjectSpec":
+        """The same object as agents hold it.
+
+        Args:
+            grips: for each agent its particle, and the length [m] of the object that it keeps
+                straight, if it has one of its own.
+        """
+        return self
 
     @abstractmethod
     def substeps(self, time_step: float) -> int:

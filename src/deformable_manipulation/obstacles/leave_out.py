@@ -38,7 +38,8 @@ class LeaveOut:
     object: float = parameter(
         _REACH,
         "Points that are nearer than this to the surface of the modelled object are taken for its "
-        "own. Make it larger than the camera's noise, and than what the model is off.",
+        "own. Make it larger than what the model is off, and than the camera's noise, unless the "
+        "obstacle has a `noise`.",
         default=0.02,
         allowed="below `controller.collision.offset`",
     )

@@ -55,6 +55,7 @@ class LiveObstacle(ObstacleSpec):
     Attributes:
         fields: of a point in the messages.
         hold: for how long [s] data are kept beside newer ones.
+        noise: of the depth [m] at 1 m, if the data are of a depth camera; otherwise 0.
     """
 
     is_live: ClassVar[bool] = True
@@ -65,6 +66,7 @@ class LiveObstacle(ObstacleSpec):
     known = True
     real = False
     hold = 0.0
+    noise = 0.0
     timeout: float
     least_points: int
     leave_out: LeaveOut
@@ -84,6 +86,17 @@ class LiveObstacle(ObstacleSpec):
         if count < self.least_points:
             text = "it has {} {}; {} at least are needed"
             raise ValueError(text.format(count, things, self.least_points))
+
+    def cleaned(self, values: np.ndarray) -> np.ndarray:
+        """Data (N, K), without the noise that can be told from what is there.
+
+        Args:
+            values: (N, K), or (H, W, K) if they are an image.
+
+        Raises:
+            ValueError: they are not as it needs; a clause that says why.
+        """
+        return values.reshape(-1, values.shape[-1])
 
     @abstractmethod
     def piece(self, seen: SeenPoints) -> Any:

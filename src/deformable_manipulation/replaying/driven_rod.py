@@ -31,10 +31,10 @@ class DrivenRod:
         count = len(shapes.places)
         self.held = held or [tuple(n % count for n in numbers) for numbers in USUALLY_HELD]
         try:
-            self.grips: List[Grip] = grips_of(shapes, self.held, spec.length, spec.segments)
+            self.grips: List[Grip] = grips_of(shapes, self.held, spec)
         except ValueError as error:
             raise MeasuredShapesError(str(error)) from error
-        self._ends = np.arange(spec.segments + 1) * spec.length / spec.segments
+        self._ends = np.array(spec.arc_lengths)
 
     def spread(self, values: np.ndarray) -> np.ndarray:
         """Values (M, 3) at the measured points, taken to the ends of the segments (N + 1, 3)."""

@@ -6,6 +6,7 @@ from typing import List, Sequence, Tuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.replaying.measured_shapes import MeasuredShapes, MeasuredShapesError
 
 
@@ -32,15 +33,12 @@ class Grip:
         return Grip(self.particle, self.hold, self.positions, turned.as_quat())
 
 
-def grips_of(
-    shapes: MeasuredShapes, held: Sequence[Sequence[int]], length: float, segments: int
-) -> List[Grip]:
+def grips_of(shapes: MeasuredShapes, held: Sequence[Sequence[int]], spec: RodSpec) -> List[Grip]:
     """The motion of each gripper, untwisted along the first shape.
 
     Args:
         held: for each gripper the points that it holds, in their order; one: it pins that point.
-        length: of the object [m].
-        segments: of the object.
+        spec: the object.
 
     Raises:
         MeasuredShapesError: a held point was never seen, or points are at the same place.
@@ -53,7 +51,7 @@ def grips_of(
     for numbers in held:
         first, last = numbers[0], numbers[-1]
         centre = 0.5 * (shapes.places[first] + shapes.places[last])
-        particle = int(np.clip(centre / length * segments, 0, segments - 1))
+        particle = spec.segment_at(centre)
         if any(grip.particle == particle for grip in grips):
             raise ValueError(f"two grippers hold segment {particle}: use more segments")
         if first == last:
@@ -68,7 +66,7 @@ def grips_of(
                 f"points {first} and {last} of a gripper are at the same place at {time:g} s"
             )
         tangents /= lengths
-        beyond = (particle + 0.5) * length / segments - shapes.places[first]
+        beyond = spec.centre(particle) - shapes.places[first]
         positions = points[:, first] + beyond * tangents
         orientations = _carried(frames[first], tangents)
         grips.append(Grip(particle, "clamped", positions, orientations))

@@ -62,6 +62,16 @@ class Replay:
         self._start = self._first_state()
 
     def run(self, spec: ObjectSpec, aim: Optional[Sequence[Sequence[float]]] = None) -> np.ndarray:
+        """Where the measured points should have been (T, M, 3) [m]; see :meth:`run_whole`."""
+        return self.measured(self.run_whole(spec, aim))
+
+    def measured(self, whole: np.ndarray) -> np.ndarray:
+        """The measured points (T, M, 3) [m] of what :meth:`run_whole` gives."""
+        return np.array([self._driven.measured(points) for points in whole])
+
+    def run_whole(
+        self, spec: ObjectSpec, aim: Optional[Sequence[Sequence[float]]] = None
+    ) -> np.ndarray:
         """Where the object should have been.
 
         Args:
@@ -69,7 +79,7 @@ class Replay:
             aim: in place of that of the options.
 
         Returns:
-            The measured points (T, M, 3) [m] as simulated.
+            All points (T, P, 3) [m] of the simulated object.
         """
         grips = self._aimed(self.options.aim if aim is None else aim)
         usual = self._usual_substeps(spec)
@@ -79,16 +89,15 @@ class Replay:
         body.set_state(*self._start)
         if self.options.start == "settled":
             body.settle(_USUAL_STEP, usual)
-        predicted = np.empty_like(self.shapes.points)
-        predicted[0] = self._driven.measured(body.points()[0])
+        whole = [body.points()[0].copy()]
         for frame, step in enumerate(np.diff(self.shapes.time), start=1):
             for grip in grips:
                 body.move_to(grip.particle, grip.positions[frame], grip.orientations[frame], step)
             pieces = max(1, math.ceil(step / _LONGEST_STEP - 1e-6))
             for _ in range(pieces):
                 body.step(step / pieces, _substeps(usual, step / pieces))
-            predicted[frame] = self._driven.measured(body.points()[0])
-        return predicted
+            whole.append(body.points()[0].copy())
+        return np.array(whole)
 
     def _usual_substeps(self, spec: ObjectSpec) -> int:
         return self.options.substeps or spec.substeps(_USUAL_STEP)

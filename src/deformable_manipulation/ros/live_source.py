@@ -121,6 +121,8 @@ class LiveSource:
         stamp = message.header.stamp.to_sec()
         self._check_time(message.header.stamp)
         values = columns(message, self._map.spec.fields)
+        if message.height > 1:  # an image
+            values = values.reshape(message.height, message.width, -1)
         pose = self._transforms.await_pose(message.header, self._map.spec.timeout)
         state = self._state_at(stamp)
         copies = None if self._lockstep else self._copies

@@ -3,9 +3,11 @@
 import re
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Dict, Iterable, Optional, Tuple
+from typing import Dict, Iterable, Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.objects.grip import GRIP_LENGTH
+from deformable_manipulation.objects.spec import ObjectSpec
 from deformable_manipulation.reading.errors import key_text, show
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
@@ -19,6 +21,7 @@ from deformable_manipulation.reading.readers import (
     position,
     read_all,
 )
+from deformable_manipulation.scenario.grips import Draft, held_object
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
@@ -58,6 +61,15 @@ class AgentSpec:
         default="clamped",
         allowed="`clamped` with `further_particles`",
     )
+    grip_length: Optional[float] = parameter(
+        GRIP_LENGTH,
+        "Length of a rope or rod that the gripper keeps straight: its width, or 0 for a point. The "
+        "segments next to it are then shorter, the others longer. `auto`: the held segment, as "
+        "long as all. See [real_objects.md](real_objects.md#what-a-clamp-holds).",
+        default=None,
+        default_text="`auto`",
+        allowed="of clamped agents; grips must not overlap",
+    )
     driven_by: str = parameter(
         Choice("command", "pose"),
         "What moves the agent in the simulator. `command`: its velocity command. `pose`: the poses "
@@ -92,11 +104,9 @@ class AgentSpec:
 # start and orientation follow from the object where they are left out.
 AGENT = Section(AgentSpec, defaults={"start": None, "orientation": None})
 
-Draft = Dict[str, Any]  # attributes of an AgentSpec that could be read; None: of the object
 
-
-def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
-    """Read and check the ``agents`` section.
+def read_agents(node: Node, spec) -> Tuple[Tuple[AgentSpec, ...], ObjectSpec]:
+    """Read and check the ``agents`` section; with it, the object as the agents hold it.
 
     Args:
         spec: the object, or None if it could not be read; then what depends on it is not
@@ -109,7 +119,9 @@ def read_agents(node: Node, spec) -> Tuple[AgentSpec, ...]:
     _check_particles(node, drafts, spec)
     if spec is None:
         raise Unreadable
-    return tuple(read_all(partial(_complete, name, draft, spec) for name, draft in drafts.items()))
+    spec = held_object(node, drafts, spec)
+    agents = read_all(partial(_complete, name, draft, spec) for name, draft in drafts.items())
+    return tuple(agents), spec
 
 
 def _read_draft(node: Node, name) -> Draft:

@@ -9,7 +9,7 @@ from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Report, Slopes
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.barriers.pairs import limits_between
-from deformable_manipulation.scenario.grips import held_points
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,

@@ -119,7 +119,7 @@ def _read_sections(root: Node, default_name: str) -> Dict[str, Any]:
     parts = SCENARIO.read_parts(root)
     if "agents" in parts:
         try:
-            parts["agents"] = read_agents(parts["agents"], parts.get("object"))
+            parts["agents"], parts["object"] = read_agents(parts["agents"], parts.get("object"))
         except Unreadable:
             del parts["agents"]
     if "object" in parts:

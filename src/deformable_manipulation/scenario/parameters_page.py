@@ -8,6 +8,7 @@ import re
 import sys
 from typing import Any, Dict, Iterable, List, Sequence, Tuple
 
+from deformable_manipulation.objects.grip import GRIP
 from deformable_manipulation.objects.kinds import KINDS
 from deformable_manipulation.objects.natural_shape import NATURAL_SHAPE
 from deformable_manipulation.objects.point_mass import POINT_MASS
@@ -71,6 +72,7 @@ def sections() -> Dict[str, Any]:
         **{"object: " + name: kind.section for name, kind in KINDS.items()},
         "object.natural_shape": NATURAL_SHAPE,
         "object.point_masses": POINT_MASS,
+        "object.grips": GRIP,
         "object.pose": POSE,
         "agents": AGENT,
         "obstacles": _Excerpt(OBSTACLE_KINDS["polygon"].section, COMMON_KEYS),

@@ -48,6 +48,12 @@ def _check_cable(report: Report, rod: RodSpec, refinement: int) -> None:
             ("object", "natural_shape"),
             "must be left out in the world mujoco, whose rods are straight without load",
         )
+    if not rod.has_equal_segments:
+        report.add(
+            ("object", "grips"),
+            "must have no lengths in the world mujoco, whose grips hold whole pieces of the rod: "
+            "leave grip_length out of the agents",
+        )
     if rod.point_masses:
         report.add(
             ("object", "point_masses"),

@@ -95,7 +95,7 @@ class LiveMap:
 
         Args:
             time: [s] that they are of; newer than those before, or time was set back.
-            values: (N, K) the fields that the obstacle asks for.
+            values: (N, K) the fields that the obstacle asks for; (H, W, K) of an image.
             pose: of their frame in the fixed frame, translation [m] and rotation, at that time.
             state: the carried object at that time.
             find_frame: where tf frames were then; None: there is no tf.
@@ -104,10 +104,11 @@ class LiveMap:
         Raises:
             ValueError: they cannot be used; a clause that says why. What was known stays.
         """
+        values = self.spec.cleaned(values)
         finite = np.isfinite(values[:, 0] + values[:, 1] + values[:, 2])
         values = values if finite.all() else values[finite]
         places = _placed(values[:, :3], *pose)
-        own = self._own.mark(places, state, find_frame)
+        own = self._own.mark(places, pose[0], state, find_frame)
         if own.any():
             values, places = values[~own], places[~own]
         piece = Piece(time, self.spec.piece(SeenPoints(values, places, *pose)), places)

@@ -40,7 +40,7 @@ class Sight:
         """Take an image of a cycle, if one is due."""
         if self._camera is None or not self._maps or not self._times.is_due(cycle):
             return
-        points = self._camera.image(cycle, state).reshape(-1, 3)
+        points = self._camera.image(cycle, state)
         for index, each in self._maps.items():
             self._refusals.pop(index, None)
             try:

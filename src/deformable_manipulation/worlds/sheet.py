@@ -7,7 +7,7 @@ import numpy as np
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.scenario.agents import AgentSpec
-from deformable_manipulation.scenario.grips import held_points
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.worlds.engine import load_engine, require_stable
 from deformable_manipulation.worlds.flex_model import flex_xml
 

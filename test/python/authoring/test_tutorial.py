@@ -37,7 +37,7 @@ def test_every_command_succeeds(tmp_path, monkeypatch, capsys):
     assert (tmp_path / "my_work" / "rope_run" / "overview.png").is_file()
 
 
-@pytest.mark.parametrize("options, lowest", [([], "66.2 mm"), (["--no-safety"], "-143.7 mm")])
+@pytest.mark.parametrize("options, lowest", [([], "55.1 mm"), (["--no-safety"], "-143.7 mm")])
 def test_the_rope_is_carried_as_the_page_says(tmp_path, capsys, options, lowest):
     from deformable_manipulation.commands import new_scenario, run_scenario
 

@@ -84,10 +84,30 @@ class HeldRod:
         assert self._rod.settle(0.01, 2, 1e-8, 60.0)
         return self._rod
 
+    def sections(self):
+        """What barriers know of its segments, which are of unequal length."""
+        joints, ends = list(self._rod.joint_lengths), np.array(self._rod.arc_lengths)
+        masses = np.zeros((SEGMENTS, 2))
+        masses[:, 0] = np.diff(ends) / (LENGTH / SEGMENTS)
+        weights = {"masses": masses}
+        edges = np.column_stack((np.arange(SEGMENTS), np.arange(SEGMENTS) + 1, np.diff(ends)))
+        return {
+            "bending": {"joint_lengths": joints},
+            "tension": weights,
+            "twist": weights,
+            "strain": {"edges": edges},
+        }
+
 
 @pytest.fixture(scope="module")
 def held_rod():
     return HeldRod()
+
+
+@pytest.fixture(scope="module")
+def gripped_rod():
+    """Held by two grippers of a width, so that its segments are of unequal length."""
+    return HeldRod(grips=[(0, 0.03), (12, None), (23, 0.05)])
 
 
 def sections():
@@ -99,7 +119,7 @@ def sections():
     joints = {"weight": mass * GRAVITY, "masses": masses, "particles": list(PARTICLES)}
     stiffness = 7e7 * np.pi * 0.004**4 / 2.0
     return {
-        "bending": {"min_radius": 1.0 / FAR, "segment_length": LENGTH / SEGMENTS},
+        "bending": {"min_radius": 1.0 / FAR, "joint_lengths": [LENGTH / SEGMENTS] * (SEGMENTS - 1)},
         "twist": {"max_twist": FAR, "torsion_stiffness": stiffness, **joints},
         "grip_force": {"max_force": FAR, "max_force_per_axis": [1e6] * 3},
         "grip_torque": {"max_torque": FAR, "max_torque_per_axis": [1e6] * 3},
@@ -130,7 +150,15 @@ def test_rows_are_the_gradients_by_differences(held_rod, name):
 
     Where a gradient is small for the limit, all rows have the same scale.
     """
-    native = barrier(name)
+    _compare_with_differences(held_rod, barrier(name))
+
+
+@pytest.mark.parametrize("name", list(sections()))
+def test_rows_are_the_gradients_where_segments_are_unequal(gripped_rod, name):
+    _compare_with_differences(gripped_rod, barrier(name, **gripped_rod.sections().get(name, {})))
+
+
+def _compare_with_differences(held_rod, native):
     rows = rows_of(native, held_rod.shape(HELD))
     assert np.linalg.norm(rows.coefficients, axis=1).max() < 1.0
     nearest = np.argmax(rows.bounds)
@@ -246,6 +274,32 @@ def test_the_twist_is_that_between_the_orientations_of_the_segments(held_rod):
     assert largest == pytest.approx(np.abs(twists).max(), rel=2e-3)
 
 
+def test_tension_and_twist_know_the_weights_of_unequal_segments(gripped_rod):
+    """Counted from the first grip on, they are what the rod's own equilibrium has in each joint."""
+    settled = gripped_rod.settled(TURNED)
+    orientations = Rotation.from_quat(settled.orientations())
+    between = (orientations[:-1].inv() * orientations[1:]).as_quat()
+    twists = 2.0 * np.arctan2(between[:, 0], between[:, 3]) / np.array(settled.joint_lengths)
+    found = _pbd.RodEquilibrium()
+    found.update(settled, tolerance=1e-10)
+    shape = _control.ObjectShape(3, found.points(), wrenches=found.wrenches())
+    sections = gripped_rod.sections()
+    largest = FAR - barrier("twist", **sections["twist"]).value(HELD, np.inf, 1, shape)
+    assert largest == pytest.approx(np.abs(twists).max(), rel=2e-3)
+    ends = np.array(settled.arc_lengths)
+    mass = 1500.0 * np.pi * 0.004**2
+    tensions = []
+    for joint in range(SEGMENTS - 1):
+        held = np.array(PARTICLES) > joint
+        force = (
+            -found.wrenches()[held, :3].sum(axis=0) + mass * (LENGTH - ends[joint + 1]) * GRAVITY
+        )
+        along = found.points()[joint + 2] - found.points()[joint]
+        tensions.append(force @ along / np.linalg.norm(along))
+    native = barrier("tension", **sections["tension"])
+    assert FAR - native.value(HELD, np.inf, 1, shape) == pytest.approx(max(tensions), rel=1e-6)
+
+
 def test_rows_are_predicted_and_shared(held_rod):
     """Over the delay the load changes by the velocities relative to the leader's."""
     shape = held_rod.shape(HELD)
@@ -321,7 +375,8 @@ class LightRod:
         found.update(self.rod, tolerance=1e-8, iterations=200)
         assert found.valid(), found.status()
         limit = 1e3
-        section = {"min_radius": 1.0 / limit, "segment_length": LENGTH / self.segments}
+        lengths = [LENGTH / self.segments] * (self.segments - 1)
+        section = {"min_radius": 1.0 / limit, "joint_lengths": lengths}
         native = barrier("bending", (1,), reserve=0.0, **section)
         shape = _control.ObjectShape(2, found.points())
         return limit - native.value(HELD, np.inf, 1, shape), found.wrenches()

@@ -114,6 +114,26 @@ def test_what_is_found_does_not_depend_on_calls_before():
         assert all((found[name] == fresh[name]).all() for name in found)
 
 
+@pytest.mark.parametrize("tremble", [0.0, 2e-5, 1e-3])
+@pytest.mark.parametrize("height", [0.5, 2.0])
+@pytest.mark.parametrize("is_surface", [False, True])
+def test_nor_does_what_is_found_of_an_object_that_moves_slowly(is_surface, height, tremble):
+    rng = np.random.default_rng(2)
+    x, y = rng.uniform(-1.0, 1.0, (2, 20_000))
+    hill = 0.3 * np.exp(-4.0 * (x**2 + y**2))  # most points stay below those that are nearest
+    cloud = np.column_stack((x, y, hill + 0.0005 * rng.normal(size=len(x))))
+    minimum = calculator(cloud)
+    points, triangles = mesh_reference.sheet(rng, cells=6, size=0.8, middle=(0.0, 0.0, height))
+    for step in range(60):
+        points = points + (0.0006, 0.0008, 0.002 * np.cos(0.3 * step))
+        points = points + tremble * rng.normal(size=points.shape)
+        arguments = points[None], triangles if is_surface else None
+        found = mesh_reference.fields_of(minimum.compute(*arguments))
+        fresh = mesh_reference.fields_of(calculator(cloud).compute(*arguments))
+        assert len(found["distance"]) >= 5
+        assert all((found[name] == fresh[name]).all() for name in found)
+
+
 def test_an_object_through_a_point_is_as_deep_as_the_radius():
     line = np.array([(-1.0, 0.0, 0.0), (1.0, 0.0, 0.0)])
     found = calculator(np.zeros((1, 3))).compute(line[None])

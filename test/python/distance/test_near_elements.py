@@ -44,6 +44,27 @@ def test_as_brute_force_says(kind, seed, count):
     assert (found == (gaps <= 0.0).any(axis=1))[clear].all()
 
 
+@given(seed=st.integers(0, 2**31))
+@settings(max_examples=25, deadline=None)
+def test_points_that_may_be_elsewhere_on_their_rays(seed):
+    rng = np.random.default_rng(seed)
+    points, origin, doubt = rng.uniform(-1.0, 1.0, (100, 3)), rng.uniform(-2.0, 2.0, 3), 0.05
+    elements = rng.uniform(-1.0, 1.0, (10, 1, 3)) + rng.normal(0.0, 0.2, (10, 3, 3))
+    elements[::3, 2] = elements[::3, 1]  # segments
+    elements[1::5, 1:] = elements[1::5, :1]  # points
+    reaches, farthest = rng.uniform(0.0, 0.2, 10), rng.uniform(0.2, 0.4, 10)
+    found = _distance.near_elements(points, elements, reaches, farthest, origin, doubt)
+    rays = points - origin
+    steps = np.linspace(-1.0, 1.0, 201)
+    length = doubt * np.linalg.norm(rays, axis=1)
+    places = points[:, None] + steps[:, None] * (length[:, None] * rays)[:, None]
+    gaps = nearest_on_triangles(places.reshape(-1, 3), elements).reshape(100, 201, 10).min(axis=1)
+    allowed = nearest_on_triangles(points, elements) <= farthest
+    between = 0.01 * doubt * (rays**2).sum(axis=1)[:, None]  # m, that the steps may have missed
+    assert found[((gaps <= reaches) & allowed).any(axis=1)].all()
+    assert not found[((gaps > reaches + between) | ~allowed).all(axis=1)].any()
+
+
 def test_points_that_are_none_are_near_nothing():
     points = np.array([(np.nan, 0.0, 0.0), (0.0, np.inf, 0.0), (0.0, 0.0, 0.0)])
     marks = _distance.near_elements(points, np.zeros((1, 3, 3)), np.ones(1))
@@ -67,3 +88,16 @@ def test_nothing_is_near_no_element():
 def test_wrong_arguments(points, elements, reaches, complaint):
     with pytest.raises(ValueError, match=complaint):
         _distance.near_elements(points, elements, reaches)
+
+
+@pytest.mark.parametrize(
+    "rays, complaint",
+    [
+        ({"farthest": np.ones(2)}, "one farthest distance for each"),
+        ({"doubt": -1.0}, "the rays have a number that is not finite, or a negative doubt"),
+        ({"origin": (0.0, np.nan, 0.0)}, "the rays have a number that is not finite"),
+    ],
+)
+def test_wrong_rays(rays, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        _distance.near_elements(np.zeros((3, 3)), np.zeros((1, 3, 3)), np.ones(1), **rays)

@@ -35,6 +35,15 @@ def test_the_same_rope_is_replayed(shapes):
     assert error_of(ROPE, shapes, start="settled")["worst_distance"] < 1e-4
 
 
+def test_a_rope_between_grippers_of_a_width_is_replayed_with_these():
+    """Each gripper holds two points, at its edges and a little beyond."""
+    last = ROPE.segments - 1
+    gripped = ROPE.held_by([(0, 0.02), (last, 0.02)])
+    shapes = record(gripped, frames=60)
+    assert error_of(gripped, shapes, start="settled")["worst_distance"] < 1e-4
+    assert error_of(ROPE, shapes, start="settled")["worst_distance"] > 2e-3
+
+
 def test_another_rope_is_not(shapes):
     assert error_of(stiffer(ROPE, 3.0), shapes, start="settled")["mean_distance"] > 5e-3
 

@@ -86,6 +86,56 @@ def test_the_object_and_the_grips_are_left_out():
     np.testing.assert_allclose(made.seen.places[-1], beside)
 
 
+CAMERA = (0.0, 0.7, 3.0), (1.0, 0.0, 0.0, 0.0)  # looks straight down, 2 m over the rope
+NOISY = {"obstacles__1__noise": 0.004, "obstacles__1__leave_out": {"object": 0.01, "grips": 0.03}}
+
+
+def seen_from_above(*places):
+    """A row of an image by the camera above, of places in the fixed frame, and an empty row."""
+    row = (np.array(places) - CAMERA[0]) * (1.0, -1.0, -1.0)
+    return np.stack((row, np.full_like(row, np.nan)))
+
+
+def test_what_noise_has_moved_away_from_a_grip_is_left_out():
+    kept = [(0.0, 0.0, 1.115), (0.04, 0.0, 1.0), (0.0, 0.7, 1.07)]  # 5 deviations: 80 mm
+    moved = [(0.0, 0.0, 1.08), (0.02, 0.0, 1.06), (0.0, 0.7, 1.045), (0.0, 0.7, 0.955)]
+    made = live_map(**NOISY)
+    take(made, 0.0, seen_from_above(*kept, *moved), CAMERA)
+    np.testing.assert_allclose(made.seen.places[-1], kept, atol=1e-12)
+    made = live_map(**{**NOISY, "obstacles__1__noise": 0.0})
+    take(made, 0.0, seen_from_above(*kept, *moved), CAMERA)
+    assert len(made.seen.places[-1]) == len(kept) + len(moved)
+
+
+def test_noise_is_smoothed():
+    v, u = np.mgrid[-0.3:0.3:40j, -0.3:0.3:40j]
+    true = 2.5 * np.stack((u, v, np.ones_like(u)), axis=-1)
+    noise = 1.0 + 0.004 * 2.5 * np.random.default_rng(0).standard_normal(u.shape)
+    made = live_map(**NOISY)
+    take(made, 0.0, true * noise[:, :, None], CAMERA)
+    assert 0.5 - 0.005 - lowest(made) < 0.03  # of a deviation of 25 mm
+    rough = live_map(**{**NOISY, "obstacles__1__noise": 0.0})
+    take(rough, 0.0, true * noise[:, :, None], CAMERA)
+    assert 0.5 - 0.005 - lowest(rough) > 0.05
+
+
+@pytest.mark.parametrize(
+    "points, complaint",
+    [
+        (floor(0.5), "it has no rows of points, as of an image, which `noise` needs"),
+        (
+            floor(0.5).reshape(20, 20, 3) - (0, 0, 1),
+            "it has points behind the camera; `noise` needs",
+        ),
+    ],
+)
+def test_noise_needs_an_image(points, complaint):
+    made = live_map(**NOISY)
+    with pytest.raises(ValueError, match=complaint):
+        take(made, 0.0, points)
+    assert made.seen is None
+
+
 def test_shapes_of_a_robot_are_left_out():
     shape = {"start": [0, 0, 0.1], "end": [0, 0, 0.5], "radius": 0.05}
     on_agent = {"frame": "assistant_1", **shape}

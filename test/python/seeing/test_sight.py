@@ -128,6 +128,24 @@ def test_without_seeing_it_would_not_be():
     assert min(loop.step().distance for _ in range(600)) < 0.0
 
 
+def run_with_noise(known):
+    """How many programs are relaxed, and the least true distance [m]."""
+    near = {"object": 0.015, "grips": 0.035}
+    changes = {"obstacles__1__noise": known, "obstacles__1__leave_out": near}
+    scenario = seen_block(camera__noise=0.003, **changes)
+    loop = ClosedLoop(scenario)
+    records = [loop.step() for _ in range(scenario.cycles)]
+    relaxed = [record.decisions["assistant_1"].status == Status.RELAXED for record in records]
+    return sum(relaxed), min(record.distance for record in records)
+
+
+def test_noise_that_is_known_does_not_make_the_assistant_flee():
+    relaxed, least = run_with_noise(0.003)
+    relaxed_without, least_without = run_with_noise(0.0)
+    assert relaxed < 0.2 * relaxed_without
+    assert 0.05 < least < least_without - 0.005  # no farther than needed, and not too near
+
+
 def test_what_nobody_knows_is_no_obstacle_to_the_controllers(records):
     assert records[300].decisions["assistant_1"].distance != records[300].distance
 

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from deformable_manipulation import _pbd
 from deformable_manipulation.objects.body import make_body
 from deformable_manipulation.scenario import load_scenario
-from deformable_manipulation.scenario.grips import held_points
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.simulation.factory import make_simulation
 from deformable_manipulation.validation.fabric import FabricProperties, make_fabric, rectangle
 from deformable_manipulation.validation.references.elastica import solve_cantilever

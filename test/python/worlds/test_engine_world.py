@@ -19,7 +19,7 @@ from deformable_manipulation.recording.summary import summarise
 from deformable_manipulation.recording.timeseries import TimeSeries
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import ScenarioError, load_scenario
-from deformable_manipulation.scenario.grips import held_points
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.validation.fabric import rectangle
 from deformable_manipulation.validation.references.elastica import (
     Clamped,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "deformable_manipulation/control/load_barrier.h"
 
 namespace deformable_manipulation {
@@ -10,9 +13,9 @@ namespace control {
 //! The curvature of a joint is the angle between its two segments over the length of one.
 class BendingBarrier final : public LoadBarrier {
  public:
-  //! @param segment_length [m]
-  BendingBarrier(const LoadParameters& parameters, double segment_length, const Team& team)
-      : LoadBarrier(parameters, team), segment_length_(segment_length) {}
+  //! @param joint_lengths [N - 1] m, of the rod that bends in each joint
+  BendingBarrier(const LoadParameters& parameters, std::vector<double> joint_lengths, const Team& team)
+      : LoadBarrier(parameters, team), joint_lengths_(std::move(joint_lengths)) {}
 
  protected:
   int count(const ObjectShape& shape) const override { return shape.coordinates != nullptr ? shape.points - 2 : 0; }
@@ -21,7 +24,7 @@ class BendingBarrier final : public LoadBarrier {
   bool isDifferentiable(const ObjectShape& shape) const override { return shape.response != nullptr; }
 
  private:
-  double segment_length_;
+  std::vector<double> joint_lengths_;
 };
 
 }  // namespace control

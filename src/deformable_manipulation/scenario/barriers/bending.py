@@ -8,7 +8,7 @@ from deformable_manipulation.scenario.barriers.loads import (
 
 
 def _derive(scenario):
-    return {"segment_length": scenario.object.length / scenario.object.segments}
+    return {"joint_lengths": list(scenario.object.joint_lengths)}
 
 
 BARRIER = load_barrier(
