@@ -1,7 +1,5 @@
 #include "deformable_manipulation/control/joint_loads.h"
 
-#include <numeric>
-
 namespace deformable_manipulation {
 namespace control {
 namespace {
@@ -9,6 +7,8 @@ namespace {
 Vector3 centre(const ObjectShape& shape, int segment) {
   return 0.5 * (shape.point(segment) + shape.point(segment + 1));
 }
+
+Vector3 span(const ObjectShape& shape, int segment) { return shape.point(segment + 1) - shape.point(segment); }
 
 void addCentreGradient(const ObjectShape& shape, int segment, const Vector3& by, std::vector<Vector6>& gradients) {
   shape.addPointGradient(segment, 0.5 * by, gradients);
@@ -18,17 +18,22 @@ void addCentreGradient(const ObjectShape& shape, int segment, const Vector3& by,
 }  // namespace
 
 JointLoads::JointLoads(const ParameterSection& section, const Team& team)
-    : weight_(section.vector<3>("weight")),
-      shares_(section.numbers("shares")),
-      before_(shares_.size()),
-      particles_(section.integers("particles")) {
-  std::partial_sum(shares_.begin(), shares_.end(), before_.begin());
+    : weight_(section.vector<3>("weight")), particles_(section.integers("particles")) {
   section.check().require(static_cast<int>(particles_.size()) == team.agents, section.pathOf("particles"),
                           static_cast<double>(particles_.size()), "a particle per agent");
+  const Eigen::MatrixXd rows = section.matrix("masses");
+  section.check().require(rows.cols() == 2, section.pathOf("masses"), static_cast<double>(rows.cols()),
+                          "2 numbers per segment");
+  before_.push_back(0.0);
+  for (Eigen::Index i = 0; rows.cols() == 2 && i < rows.rows(); ++i) {
+    masses_.push_back(rows(i, 0));
+    before_.push_back(before_.back() + rows(i, 0));
+    leans_.push_back(rows(i, 1));
+  }
 }
 
 Vector3 JointLoads::force(const ObjectShape& shape, int joint) const {
-  Vector3 force = -(shares_.empty() ? joint + 1.0 : before_[joint]) * weight_;
+  Vector3 force = -before_[joint + 1] * weight_;
   for (int agent = 0; agent < shape.agents; ++agent) {
     if (particles_[agent] <= joint) {
       force += shape.wrench(agent).head<3>();
@@ -47,7 +52,10 @@ Vector3 JointLoads::moment(const ObjectShape& shape, int joint) const {
     }
   }
   for (int segment = 0; segment <= joint; ++segment) {
-    moment -= (centre(shape, segment) - here).cross(shareOf(segment) * weight_);
+    moment -= (centre(shape, segment) - here).cross(masses_[segment] * weight_);
+    if (leans_[segment] != 0.0) {
+      moment -= leans_[segment] * span(shape, segment).normalized().cross(weight_);
+    }
   }
   return moment;
 }
@@ -77,7 +85,15 @@ void JointLoads::addMomentGradient(const ObjectShape& shape, int joint, const Ve
     addCentreGradient(shape, particles_[agent], shape.wrench(agent).head<3>().cross(by), gradients);
   }
   for (int segment = 0; segment <= joint; ++segment) {
-    addCentreGradient(shape, segment, -shareOf(segment) * weight_.cross(by), gradients);
+    addCentreGradient(shape, segment, -masses_[segment] * weight_.cross(by), gradients);
+    if (leans_[segment] != 0.0) {
+      const Vector3 along = span(shape, segment);
+      const Vector3 direction = along.normalized();
+      const Vector3 change = -leans_[segment] * weight_.cross(by);
+      const Vector3 by_end = (change - direction.dot(change) * direction) / along.norm();
+      shape.addPointGradient(segment, -by_end, gradients);
+      shape.addPointGradient(segment + 1, by_end, gradients);
+    }
   }
   shape.addPointGradient(joint + 1, -force(shape, joint).cross(by), gradients);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -53,28 +54,45 @@ void Body::hold(int particle, Hold type) {
   hold(particle, type, pose(particle));
 }
 
-void Body::hold(int particle, Hold type, const Pose& pose) {
-  requireParticle(particle);
+void Body::hold(int particle, Hold type, const Pose& pose) { hold(particle, {}, type, pose); }
+
+void Body::hold(int particle, const std::vector<FurtherParticle>& further, Hold type, const Pose& pose) {
+  requireFree(particle);
   requirePose(pose);
-  for (const HeldPoint& held : holds_) {
-    if (held.particle == particle) {
-      throw std::invalid_argument("particle " + std::to_string(particle) + " is already held");
-    }
+  std::vector<HeldPoint> holds = holds_;
+  holds.push_back({particle, type, pose, Twist()});
+  for (const FurtherParticle& each : further) {
+    requireFree(each.particle);
+    requirePose(each.place);
+    holds.push_back({each.particle, type, pose, Twist(), particle, each.place});
   }
-  holds_.push_back({particle, type, pose, Twist()});
-  std::sort(holds_.begin(), holds_.end(),
-            [](const HeldPoint& a, const HeldPoint& b) { return a.particle < b.particle; });
+  std::sort(holds.begin(), holds.end(), [](const HeldPoint& a, const HeldPoint& b) { return a.particle < b.particle; });
+  const auto same = [](const HeldPoint& a, const HeldPoint& b) { return a.particle == b.particle; };
+  const auto twice = std::adjacent_find(holds.begin(), holds.end(), same);
+  if (twice != holds.end()) {
+    throw std::invalid_argument("particle " + std::to_string(twice->particle) + " is given twice");
+  }
+  holds_ = std::move(holds);
+  placeFollowers();
   holdsChanged();
 }
 
+void Body::requireFree(int particle) const {
+  requireParticle(particle);
+  if (isHeld(particle)) {
+    throw std::invalid_argument("particle " + std::to_string(particle) + " is already held");
+  }
+}
+
 void Body::release(int particle) {
-  const HeldPoint& released = findHeld(particle);
+  leading(particle);
   for (std::size_t i = copies_.size(); i-- > 0;) {
     if (copies_[i].particle == particle) {
       removeCopy(copies_[i].id);
     }
   }
-  holds_.erase(holds_.begin() + (&released - holds_.data()));
+  const auto released = [particle](const HeldPoint& held) { return held.grip == particle; };
+  holds_.erase(std::remove_if(holds_.begin(), holds_.end(), released), holds_.end());
   holdsChanged();
 }
 
@@ -88,6 +106,7 @@ void Body::setTwist(int particle, const Twist& twist) {
 void Body::setPose(int particle, const Pose& pose) {
   requirePose(pose);
   findHeld(particle).pose = pose;
+  placeFollowers();
 }
 
 void Body::moveTo(int particle, const Pose& pose, double duration) {
@@ -102,7 +121,20 @@ void Body::moveTo(int particle, const Pose& pose, double duration) {
   setTwist(particle, {(pose.position - from.position) / duration, rotation.angle() / duration * rotation.axis()});
 }
 
-HeldPoint& Body::findHeld(int particle) { return const_cast<HeldPoint&>(held(particle)); }
+HeldPoint& Body::findHeld(int particle) { return const_cast<HeldPoint&>(leading(particle)); }
+
+const HeldPoint& Body::leading(int particle) const {
+  const HeldPoint& found = held(particle);
+  if (!found.leads()) {
+    throw std::invalid_argument("particle " + std::to_string(particle) + " is held together with particle " +
+                                std::to_string(found.grip) + ", which stands for both");
+  }
+  return found;
+}
+
+int Body::gripCount() const {
+  return static_cast<int>(std::count_if(holds_.begin(), holds_.end(), std::mem_fn(&HeldPoint::leads)));
+}
 
 const HeldPoint& Body::held(int particle) const {
   for (const HeldPoint& held : holds_) {
@@ -111,6 +143,19 @@ const HeldPoint& Body::held(int particle) const {
     }
   }
   throw std::invalid_argument("particle " + std::to_string(particle) + " is not held");
+}
+
+Wrench Body::gripWrench(int particle, int copy) const {
+  const Vector3 about = heldPosition(leading(particle), copy);
+  Wrench sum = wrench(particle, copy);
+  for (const HeldPoint& held : holds_) {
+    if (held.grip == particle && !held.leads()) {
+      const Wrench own = wrench(held.particle, copy);
+      sum.force += own.force;
+      sum.torque += own.torque + (heldPosition(held, copy) - about).cross(own.force);
+    }
+  }
+  return sum;
 }
 
 std::string Body::softness(double, int) const { return ""; }
@@ -124,7 +169,7 @@ bool Body::turningResponse(double*) const { return false; }
 bool Body::wrenchResponse(double*) const { return false; }
 
 int Body::addCopy(int particle, const Vector3& displacement) {
-  held(particle);
+  leading(particle);
   const double length = displacement.norm();
   double longest = 0.0;
   for (int other = 0; other < particleCount(); ++other) {
@@ -170,6 +215,7 @@ void Body::step(double time_step, int substeps) {
   requireStep(time_step, substeps);
   const double h = time_step / substeps;
   retargetCopies();
+  moveFollowers();
   beginStep(h);
   for (int i = 0; i < substeps; ++i) {
     advanceHolds(h);
@@ -182,7 +228,7 @@ void Body::step(double time_step, int substeps) {
 }
 
 Vector3 Body::heldPosition(const HeldPoint& held, int copy) const {
-  if (copy > 0 && copies_[copy - 1].particle == held.particle) {
+  if (copy > 0 && copies_[copy - 1].particle == held.grip) {
     return held.pose.position + copies_[copy - 1].present;
   }
   return held.pose.position;
@@ -190,15 +236,45 @@ Vector3 Body::heldPosition(const HeldPoint& held, int copy) const {
 
 void Body::advanceHolds(double h) {
   for (HeldPoint& held : holds_) {
-    held.pose = moved(held.pose, held.twist, h);
+    if (held.leads()) {
+      held.pose = moved(held.pose, held.twist, h);
+    }
+  }
+  placeFollowers();
+}
+
+//! Puts all particles of the grips where these are.
+void Body::placeFollowers() {
+  for (HeldPoint& follower : holds_) {
+    if (!follower.leads()) {
+      const Pose& grip = held(follower.grip).pose;
+      follower.pose.position = grip.position + grip.orientation * follower.place.position;
+      follower.pose.orientation = (grip.orientation * follower.place.orientation).normalized();
+    }
   }
 }
 
+//! Gives them the velocities that they have with their grips at present.
+void Body::moveFollowers() {
+  for (HeldPoint& follower : holds_) {
+    if (!follower.leads()) {
+      const HeldPoint& grip = held(follower.grip);
+      const Vector3 arm = follower.pose.position - grip.pose.position;
+      follower.twist = {grip.twist.linear + grip.twist.angular.cross(arm), grip.twist.angular};
+    }
+  }
+}
+
+//! Whether each particle of the displaced grip is within the object's reach from each one of the others.
 bool Body::inReach(const PerturbedCopy& copy, const Vector3& displacement, double margin) const {
-  const Vector3 displaced = held(copy.particle).pose.position + displacement;
-  return std::all_of(holds_.begin(), holds_.end(), [&](const HeldPoint& other) {
-    return other.particle == copy.particle ||
-           (displaced - other.pose.position).norm() <= margin * freeLength(copy.particle, other.particle);
+  const auto reaches = [&](const HeldPoint& displaced, const HeldPoint& other) {
+    return (displaced.pose.position + displacement - other.pose.position).norm() <=
+           margin * freeLength(displaced.particle, other.particle);
+  };
+  return std::all_of(holds_.begin(), holds_.end(), [&](const HeldPoint& displaced) {
+    return displaced.grip != copy.particle || std::all_of(holds_.begin(), holds_.end(), [&](const HeldPoint& other) {
+             return other.grip == copy.particle || reaches(displaced, other);
+           });
   });
 }
 

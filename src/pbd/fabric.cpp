@@ -66,6 +66,7 @@ struct Fabric::State {
   std::vector<std::vector<double>> distances_of_holds;  // [holds x N] m, unless straight
   std::vector<double> decay, carried;
   std::vector<double> shape;           // [N x 3] m, for the response
+  std::vector<double> forces;          // [N x 3] N, at held vertices, likewise
   std::vector<AlignedArray> recorded;  // [groups] of the last substep
   FabricInput input{};
   std::shared_ptr<ThreadPool> pool;  // shared with clones
@@ -163,6 +164,12 @@ double Fabric::freeLength(int particle, int other) const {
     }
   }
   return s.distances.from(particle)[other];
+}
+
+Pose Fabric::undeformedPose(int particle) const {
+  requireParticle(particle);
+  const Pose& pose = parameters_.pose;
+  return {pose.position + pose.orientation * parameters_.vertices[particle], pose.orientation};
 }
 
 double Fabric::mass() const { return std::accumulate(state_->masses.begin(), state_->masses.end(), 0.0); }
@@ -335,6 +342,20 @@ ResponseStatus Fabric::response(double* to) {
   }
   positions(0, s.shape.data());
   return response_->compute(s.constraints, s.shape.data(), to);
+}
+
+bool Fabric::turningResponse(double* to) const { return response_ != nullptr && response_->turns(to); }
+
+bool Fabric::wrenchResponse(double* to) const {
+  State& s = *state_;
+  if (response_ == nullptr) {
+    return false;
+  }
+  s.forces.assign(s.shape.size(), 0.0);
+  for (const HeldPoint& held : holds()) {
+    Eigen::Map<Vector3>(&s.forces[3 * held.particle]) = wrench(held.particle).force;
+  }
+  return response_->wrenches(s.constraints, s.shape.data(), s.forces.data(), to);
 }
 
 void Fabric::points(double* to) const {

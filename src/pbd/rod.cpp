@@ -221,6 +221,9 @@ Wrench Rod::wrench(int particle, int copy) const {
 }
 
 ResponseStatus Rod::response(double* to) {
+  if (gripCount() < static_cast<int>(holds().size())) {
+    return ResponseStatus::NOT_AVAILABLE;
+  }
   RodEquilibrium& equilibrium = state_->equilibrium;
   equilibrium.update(*this, 1);
   if (equilibrium.status(0) == ResponseStatus::VALID) {

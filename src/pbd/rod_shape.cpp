@@ -28,6 +28,11 @@ void Rod::layOut() {
   stop();
 }
 
+Pose Rod::undeformedPose(int particle) const {
+  requireParticle(particle);
+  return layOutRod(parameters_, *pieces_, *natural_, {})[particle];
+}
+
 void Rod::placeCopy(int copy, const std::vector<Pose>& segments) {
   RodLanes& lanes = state_->groups.of(copy);
   const int lane = copy % kLanes;

@@ -29,10 +29,31 @@ void requireAgents(const Body& body, const std::vector<Agent>& agents, Parameter
                   "a particle of the object, 0 to " + std::to_string(body.particleCount() - 1));
     check.require(particles.insert(agent.particle).second, key + ".particle", agent.particle,
                   "a particle that no other agent holds");
+    check.require(agent.further.empty() || agent.hold == Hold::CLAMPED, key + ".hold", "pinned",
+                  "clamped: several particles are held with the orientation of their grip");
+    for (int particle : agent.further) {
+      check.require(particle >= 0 && particle < body.particleCount(), key + ".further_particles", particle,
+                    "a particle of the object, 0 to " + std::to_string(body.particleCount() - 1));
+      check.require(particles.insert(particle).second, key + ".further_particles", particle,
+                    "a particle that no agent holds yet");
+    }
     check.require(agent.start.position.allFinite(), key + ".start", "not finite", "three finite numbers [m]");
     check.require(std::abs(agent.start.orientation.norm() - 1.0) < 1e-6, key + ".orientation",
                   agent.start.orientation.norm(), "a quaternion of norm 1");
   }
+}
+
+//! How particles of the undeformed object lie relative to one of them, whose orientation the grip has.
+std::vector<FurtherParticle> placesAround(const Body& body, int particle, const std::vector<int>& further) {
+  const Pose from = body.undeformedPose(particle);
+  std::vector<FurtherParticle> places;
+  for (int each : further) {
+    const Pose pose = body.undeformedPose(each);
+    places.push_back({each,
+                      {from.orientation.conjugate() * (pose.position - from.position),
+                       (from.orientation.conjugate() * pose.orientation).normalized()}});
+  }
+  return places;
 }
 
 std::vector<int> idsOf(const Body& body) {
@@ -61,7 +82,7 @@ Simulation::Simulation(std::unique_ptr<Body> body, std::vector<Agent> agents,
   requireAgents(*body_, agents_, check);
   check.throwIfAny();
   for (const Agent& agent : agents_) {
-    body_->hold(agent.particle, agent.hold, agent.start);
+    body_->hold(agent.particle, placesAround(*body_, agent.particle, agent.further), agent.hold, agent.start);
     states_.push_back({agent.particle, agent.start, Twist(), Twist(), {}});
   }
   body_->layOut();
@@ -238,7 +259,27 @@ void Simulation::release(int agent) {
   restartCorrection();
 }
 
-void Simulation::hold(int agent, int particle, Hold type) {
+//! Further particles as they are, relative to a grip that is about to hold them.
+std::vector<FurtherParticle> Simulation::heldAround(const Pose& grip, int particle,
+                                                    const std::vector<int>& further) const {
+  std::vector<FurtherParticle> held = placesAround(*body_, particle, further);
+  const Quaternion back = grip.orientation.conjugate();
+  for (FurtherParticle& each : held) {
+    Pose now = body_->pose(each.particle);
+    now.orientation = body_->particlesTurn() ? (back * now.orientation).normalized() : Quaternion::Identity();
+    now.position = back * (now.position - grip.position);
+    const double off = (now.position - each.place.position).norm();
+    if (off > kGripReach) {
+      throw std::logic_error("particle " + std::to_string(each.particle) + " is " + std::to_string(off) +
+                             " m off its place in the grip; it can be gripped up to " + std::to_string(kGripReach) +
+                             " m off");
+    }
+    each.place = now;
+  }
+  return held;
+}
+
+void Simulation::hold(int agent, int particle, Hold type, const std::vector<int>& further) {
   AgentState& holder = state(agent);
   if (holder.particle >= 0) {
     throw std::logic_error(agents_[agent].name + " already holds particle " + std::to_string(holder.particle) +
@@ -250,9 +291,13 @@ void Simulation::hold(int agent, int particle, Hold type) {
                            " m away from " + agents_[agent].name + "; it can grip up to " + std::to_string(kGripReach) +
                            " m");
   }
-  body_->hold(particle, type);
+  Pose grip = body_->pose(particle);
+  if (!body_->particlesTurn()) {
+    grip.orientation = holder.pose.orientation;
+  }
+  body_->hold(particle, heldAround(grip, particle, further), type, grip);
   holder.particle = particle;
-  holder.pose = body_->held(particle).pose;
+  holder.pose = grip;
   for (const Vector3& displacement : holder.displacements) {
     body_->addCopy(particle, displacement);
   }
@@ -279,13 +324,12 @@ const Twist& Simulation::twist(int agent) const { return state(agent).twist; }
 
 Wrench Simulation::wrench(int agent) const {
   const int particle = state(agent).particle;
-  return particle >= 0 ? body_->wrench(particle) : Wrench();
+  return particle >= 0 ? body_->gripWrench(particle) : Wrench();
 }
 
 ResponseStatus Simulation::response(double* to) {
   const std::size_t numbers = 9 * static_cast<std::size_t>(body_->pointCount());
-  const std::vector<HeldPoint>& holds = body_->holds();
-  response_.resize(numbers * holds.size());
+  response_.resize(numbers * body_->gripCount());
   const ResponseStatus status = body_->response(response_.data());
   if (status == ResponseStatus::VALID) {
     spreadOverAgents(numbers, to);
@@ -295,7 +339,7 @@ ResponseStatus Simulation::response(double* to) {
 
 bool Simulation::turningResponse(double* to) const {
   const std::size_t numbers = 9 * static_cast<std::size_t>(body_->pointCount());
-  response_.resize(numbers * body_->holds().size());
+  response_.resize(numbers * body_->gripCount());
   if (!body_->turningResponse(response_.data())) {
     return false;
   }
@@ -303,19 +347,22 @@ bool Simulation::turningResponse(double* to) const {
   return true;
 }
 
-//! From the holds, in the body's order, to the agents that hold them; the others get zeros.
+//! From the grips, in the body's order, to their agents; those who hold nothing get zeros.
 void Simulation::spreadOverAgents(std::size_t numbers, double* to) const {
-  const std::vector<HeldPoint>& holds = body_->holds();
   std::fill_n(to, numbers * agents_.size(), 0.0);
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    std::copy_n(&response_[numbers * i], numbers, to + numbers * agentOf(holds[i].particle));
+  const double* from = response_.data();
+  for (const HeldPoint& held : body_->holds()) {
+    if (held.leads()) {
+      std::copy_n(from, numbers, to + numbers * agentOf(held.particle));
+      from += numbers;
+    }
   }
 }
 
 void Simulation::wrenches(double* to) const {
   for (int copy = 0; copy < body_->copyCount(); ++copy) {
     for (const AgentState& agent : states_) {
-      const Wrench wrench = agent.particle >= 0 ? body_->wrench(agent.particle, copy) : Wrench();
+      const Wrench wrench = agent.particle >= 0 ? body_->gripWrench(agent.particle, copy) : Wrench();
       Eigen::Map<Vector6>{to} = wrench.numbers();
       to += 6;
     }
@@ -323,18 +370,21 @@ void Simulation::wrenches(double* to) const {
 }
 
 bool Simulation::wrenchResponse(double* to) const {
-  const std::vector<HeldPoint>& holds = body_->holds();
-  response_.resize(36 * holds.size() * holds.size());
+  response_.resize(36 * static_cast<std::size_t>(body_->gripCount()) * body_->gripCount());
   if (!body_->wrenchResponse(response_.data())) {
     return false;
   }
   std::fill_n(to, 36 * agents_.size() * agents_.size(), 0.0);
   const double* from = response_.data();
-  for (std::size_t row = 0; row < 6 * holds.size(); ++row) {
-    const std::size_t to_row = 6 * agentOf(holds[row / 6].particle) + row % 6;
-    for (const HeldPoint& moved : holds) {
-      std::copy_n(from, 6, to + 6 * (to_row * agents_.size() + agentOf(moved.particle)));
-      from += 6;
+  for (const HeldPoint& of : body_->holds()) {
+    for (int row = 0; of.leads() && row < 6; ++row) {
+      const std::size_t to_row = 6 * agentOf(of.particle) + row;
+      for (const HeldPoint& moved : body_->holds()) {
+        if (moved.leads()) {
+          std::copy_n(from, 6, to + 6 * (to_row * agents_.size() + agentOf(moved.particle)));
+          from += 6;
+        }
+      }
     }
   }
   return true;

@@ -30,9 +30,14 @@ std::unique_ptr<Simulation> makeSimulation(const Body& body, const py::list& age
                                            double time_step, int substeps, int steps_per_cycle) {
   std::vector<Agent> converted;
   for (const py::handle& item : agents) {
+    const auto agent = item.cast<py::tuple>();
+    const std::size_t common = 5;
     const auto [name, particle, hold, position, orientation] =
-        item.cast<std::tuple<std::string, int, std::string, Vector3, Vector4>>();
+        py::tuple(agent[py::slice(0, common, 1)]).cast<std::tuple<std::string, int, std::string, Vector3, Vector4>>();
     converted.push_back({name, particle, toHold(hold), {position, toQuaternion(orientation)}});
+    if (agent.size() > common) {
+      converted.back().further = agent[common].cast<std::vector<int>>();
+    }
   }
   std::vector<Perturbation> displaced;
   for (const py::handle& item : perturbations) {
@@ -92,7 +97,8 @@ void bindSimulation(py::module_& module) {
       .def(py::init(&makeSimulation), py::arg("body"), py::arg("agents"), py::arg("perturbations"),
            py::arg("time_step"), py::arg("substeps"), py::arg("steps_per_cycle") = 1,
            "body is copied. agents: list of (name, particle, 'clamped' or 'pinned', position (3,) [m], orientation\n"
-           "(4,)); perturbations: list of (agent index, displacement (3,) [m]). Raises ParameterError.")
+           "(4,)[, further particles held besides]); perturbations: list of (agent index, displacement (3,) [m]). "
+           "Raises ParameterError.")
       .def(
           "set_command",
           [](Simulation& simulation, int agent, const Vector3& linear, const Vector3& angular) {
@@ -114,11 +120,10 @@ void bindSimulation(py::module_& module) {
       .def("release", &Simulation::release, py::arg("agent"), "Lets an agent's particle go.")
       .def(
           "hold",
-          [](Simulation& simulation, int agent, int particle, const std::string& type) {
-            simulation.hold(agent, particle, toHold(type));
-          },
-          py::arg("agent"), py::arg("particle"), py::arg("type") = "clamped",
-          "Grips a particle, where it is, with an agent that holds none and is near.")
+          [](Simulation& simulation, int agent, int particle, const std::string& type,
+             const std::vector<int>& further) { simulation.hold(agent, particle, toHold(type), further); },
+          py::arg("agent"), py::arg("particle"), py::arg("type") = "clamped", py::arg("further") = std::vector<int>(),
+          "Grips a particle, and further ones, where they are, with an agent that holds none and is near.")
       .def(
           "set_material",
           [](Simulation& simulation, const std::map<std::string, double>& parameters) {
@@ -134,7 +139,7 @@ void bindSimulation(py::module_& module) {
             }
             return particles;
           },
-          "The particle that each agent holds, or -1.")
+          "The particle at the point of each agent's grip, or -1.")
       .def_property_readonly(
           "body", [](const Simulation& simulation) { return simulation.body().clone(); },
           "The object as it is now, as an independent copy.")

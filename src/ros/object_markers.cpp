@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grip_drawing.h"
 #include "marker_parts.h"
 
 namespace deformable_manipulation {
@@ -50,10 +51,22 @@ visualization_msgs::MarkerArray ObjectMarkers::draw(const ObjectState& state) {
     array.markers.push_back(gone);
   }
   copies_drawn_ = copies;
+  bars_drawn_.resize(state.agents.size(), false);
   for (std::size_t i = 0; i < state.agents.size(); ++i) {
     drawAgent(state, static_cast<int>(i), state.agents[i] == leader_, array);
+    drawBar(state, static_cast<int>(i), array);
   }
   return array;
+}
+
+void ObjectMarkers::drawBar(const ObjectState& state, int agent, visualization_msgs::MarkerArray& array) {
+  Marker bar = drawGrip(state, agent, state.agents[agent] == leader_);
+  const bool is_drawn = !bar.points.empty();
+  if (is_drawn || bars_drawn_[agent]) {
+    bar.action = is_drawn ? Marker::ADD : Marker::DELETE;
+    array.markers.push_back(bar);
+  }
+  bars_drawn_[agent] = is_drawn;
 }
 
 }  // namespace deformable_manipulation

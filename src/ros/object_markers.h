@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "deformable_manipulation/ObjectState.h"
 #include "object_drawing.h"
@@ -12,7 +13,7 @@
 namespace deformable_manipulation {
 
 //! Draws a state for RViz: the object, its copies in one colour per displaced axis (x red, y green,
-//! z blue), and the agents with their names.
+//! z blue), and the agents with their names and the bars of grips that hold several particles.
 class ObjectMarkers {
  public:
   //! @param leader  its name
@@ -21,13 +22,16 @@ class ObjectMarkers {
 
   long triangleCount() const { return drawing_->triangleCount(); }
 
-  //! Copies that are gone since the last call are deleted.
+  //! Copies, and bars of grips, that are gone since the last call are deleted.
   visualization_msgs::MarkerArray draw(const ObjectState& state);
 
  private:
+  void drawBar(const ObjectState& state, int agent, visualization_msgs::MarkerArray& array);
+
   std::string leader_;
   std::unique_ptr<ObjectDrawing> drawing_;
   std::size_t copies_drawn_ = 0;
+  std::vector<bool> bars_drawn_;  // [agents]
 };
 
 }  // namespace deformable_manipulation

@@ -90,9 +90,19 @@ bool ObjectServices::hold(HoldParticle::Request& request, HoldParticle::Response
   return answer(response, [&] {
     const int index = agentNamed(simulation_, request.agent);
     const pbd::Agent& agent = simulation_.agents()[index];
-    const int particle = request.particle == -1 ? agent.particle : request.particle;
-    simulation_.hold(index, particle, toHold(request.hold, agent.hold));
-    return agent.name + " holds particle " + std::to_string(particle) + ".";
+    const bool as_given = request.particle == -1;
+    if (as_given && !request.further_particles.empty()) {
+      throw std::invalid_argument("further_particles are those of the scenario with particle -1; leave them empty");
+    }
+    const int particle = as_given ? agent.particle : request.particle;
+    const std::vector<int> further = as_given ? agent.further : request.further_particles;
+    const pbd::Hold type = toHold(request.hold, agent.hold);
+    if (type == pbd::Hold::PINNED && !further.empty()) {
+      throw std::invalid_argument("hold must be clamped for several particles");
+    }
+    simulation_.hold(index, particle, type, further);
+    const std::string others = further.empty() ? "" : " and " + std::to_string(further.size()) + " more";
+    return agent.name + " holds particle " + std::to_string(particle) + others + ".";
   });
 }
 

@@ -19,7 +19,7 @@ void readAgents(const ParameterSection& section, SimulatorScenario& scenario) {
     scenario.agents.push_back(
         {name, agent.integer("particle"),
          agent.choice<pbd::Hold>("hold", {{"clamped", pbd::Hold::CLAMPED}, {"pinned", pbd::Hold::PINNED}}),
-         agent.pose("start", "orientation")});
+         agent.pose("start", "orientation"), agent.integers("further_particles")});
     scenario.is_assistant.push_back(assistant);
     scenario.driven_by.push_back(
         agent.choice<DrivenBy>("driven_by", {{"command", DrivenBy::COMMAND}, {"pose", DrivenBy::POSE}}));

@@ -199,6 +199,7 @@ void Simulator::publishPositions() {
   positions_.reset_count = state_.reset_count;
   positions_.agents = state_.agents;
   positions_.agent_positions = state_.agent_positions;
+  positions_.agent_orientations = state_.agent_orientations;
   positions_publisher_.publish(positions_);
 }
 

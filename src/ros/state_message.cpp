@@ -19,9 +19,22 @@ void assign(const pbd::Vector3& from, Message& to) {
   to.z = from.z();
 }
 
+//! Particles that an agent's grip holds besides the one at its point.
+void fillFurtherParticles(const pbd::Simulation& simulation, int agent, ObjectState& message) {
+  const int grip = simulation.particleOf(agent);
+  for (const pbd::HeldPoint& held : simulation.body().holds()) {
+    if (held.grip == grip && !held.leads()) {
+      message.further_particles.push_back(held.particle);
+      message.further_agents.push_back(agent);
+    }
+  }
+}
+
 void fillAgents(const pbd::Simulation& simulation, ObjectState& message) {
   message.agents.clear();
   message.agent_particles.clear();
+  message.further_particles.clear();
+  message.further_agents.clear();
   message.agent_positions.clear();
   message.agent_orientations.clear();
   message.agent_velocities.clear();
@@ -36,6 +49,7 @@ void fillAgents(const pbd::Simulation& simulation, ObjectState& message) {
     append(message.agent_orientations, pose.orientation.coeffs());
     append(message.agent_velocities, twist.linear);
     append(message.agent_angular_velocities, twist.angular);
+    fillFurtherParticles(simulation, agent, message);
   }
 }
 

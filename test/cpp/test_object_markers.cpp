@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -102,6 +103,45 @@ TEST(FabricMarkers, closedSurfacesHaveAllTheirEdgesForAnOutline) {
   ObjectMarkers markers(std::make_unique<FabricDrawing>(kTetrahedron), "leader");
   const MarkerArray array = markers.draw(stateOf({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0.1, 0, 0}}));
   EXPECT_EQ(markersOf(array, "copies").at(0).points.size(), 2u * 6u);
+}
+
+//! The corners of the square, held by the leader: the fin's tip by nobody.
+ObjectState heldAtCorners() {
+  ObjectState state = stateOf(kFlat, {});
+  state.object_type = ObjectState::FABRIC;
+  state.agents = {"leader", "assistant"};
+  state.agent_positions = {0.0, 0.0, 1.0, 0.5, 0.5, 1.0};
+  state.agent_particles = {0, 4};
+  state.further_particles = {2, 1, 3};
+  state.further_agents = {0, 0, 0};
+  return state;
+}
+
+TEST(FabricMarkers, barsJoinTheVerticesOfAGripByTheShortestLines) {
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
+  const std::vector<Marker> bars = markersOf(markers.draw(heldAtCorners()), "grips");
+  ASSERT_EQ(bars.size(), 1u);
+  EXPECT_EQ(bars[0].id, 0);
+  EXPECT_EQ(bars[0].action, Marker::ADD);
+  ASSERT_EQ(bars[0].points.size(), 2u * 3u);
+  double length = 0.0;
+  for (std::size_t i = 0; i < bars[0].points.size(); i += 2) {
+    length += std::hypot(bars[0].points[i].x - bars[0].points[i + 1].x, bars[0].points[i].y - bars[0].points[i + 1].y);
+  }
+  EXPECT_NEAR(length, 3.0, 1e-12);  // three sides, not the diagonal
+}
+
+TEST(FabricMarkers, barsOfGripsThatLetGoAreDeletedOnce) {
+  ObjectMarkers markers(std::make_unique<FabricDrawing>(kTriangles), "leader");
+  ObjectState state = heldAtCorners();
+  markers.draw(state);
+  state.agent_particles[0] = -1;
+  state.further_particles.clear();
+  state.further_agents.clear();
+  const std::vector<Marker> gone = markersOf(markers.draw(state), "grips");
+  ASSERT_EQ(gone.size(), 1u);
+  EXPECT_EQ(gone[0].action, Marker::DELETE);
+  EXPECT_TRUE(markersOf(markers.draw(state), "grips").empty());
 }
 
 TEST(FabricMarkers, copiesThatAreGoneAreDeleted) {

@@ -22,10 +22,10 @@ UP = Vector3(0.0, 0.0, 0.05)
 NONSENSE = (
     ("no agent ''", "release", ReleaseParticle, [""]),
     ("no agent", "release", ReleaseParticle, ["Assistant_1"]),
-    ("already", "hold", HoldParticle, [AGENT, 5, ""]),
-    ("already", "hold", HoldParticle, [AGENT, 2147483647, ""]),
-    ("hold is", "hold", HoldParticle, [AGENT, -1, "CLAMPED"]),
-    ("no agent", "hold", HoldParticle, ["", -7, ""]),
+    ("already", "hold", HoldParticle, [AGENT, 5, "", []]),
+    ("already", "hold", HoldParticle, [AGENT, 2147483647, "", []]),
+    ("hold is", "hold", HoldParticle, [AGENT, -1, "CLAMPED", []]),
+    ("no agent", "hold", HoldParticle, ["", -7, "", []]),
     ("same length", "set_material", SetMaterial, [[], []]),
     ("young_modulus", "set_material", SetMaterial, [["young_modulus"], [NAN]]),
     ("young_modulus", "set_material", SetMaterial, [["young_modulus"], [INFINITY]]),
@@ -129,7 +129,7 @@ class FaultServicesTest(FaultTest):
         self.states.wait_for(
             lambda state: object_points(state)[-1, 2] < fallen, "a fallen end", len(self.states)
         )
-        self.assert_refused("away", "hold", HoldParticle, [AGENT, -1, ""])
+        self.assert_refused("away", "hold", HoldParticle, [AGENT, -1, "", []])
         self.assertTrue(call("reset", Trigger).success)
         self.assert_follows()
 
@@ -137,7 +137,7 @@ class FaultServicesTest(FaultTest):
         self.assertTrue(call("pause", SetBool, True).success)
         self.addCleanup(call, "pause", SetBool, False)
         self.assertTrue(call("release", ReleaseParticle, AGENT).success)
-        response = call("hold", HoldParticle, AGENT, 26, "pinned")
+        response = call("hold", HoldParticle, AGENT, 26, "pinned", [])
         self.assertTrue(response.success, response.message)
         self.assertTrue(call("pause", SetBool, False).success)
         self.states.wait_for(

@@ -51,6 +51,11 @@ class LockstepTest(unittest.TestCase):
         self.assertEqual(state.particle_count, self.scenario.object.particles)
         self.assertEqual(state.point_count, state.particle_count + (not is_fabric))
         self.assertEqual(len(state.orientations), 0 if is_fabric else 4 * state.particle_count)
+        held = {name: [each] for name, each in zip(state.agents, state.agent_particles)}
+        for particle, index in zip(state.further_particles, state.further_agents):
+            held[state.agents[index]].append(particle)
+        agents = self.scenario.agents
+        self.assertEqual(held, {agent.name: list(agent.particles) for agent in agents})
 
     def test_the_object_keeps_its_distance(self):
         distance, obstacles = make_minimum_distance(self.scenario), MovingObstacles(self.scenario)

@@ -140,15 +140,15 @@ class ObjectServicesTest(unittest.TestCase):
         )
         self.assertEqual(copies(state), [])
         self.assert_refused("assistant_1 holds nothing", "release", ReleaseParticle, AGENT)
-        self.assert_refused("away", "hold", HoldParticle, AGENT, -1, "")
+        self.assert_refused("away", "hold", HoldParticle, AGENT, -1, "", [])
         self.setUp()
         self.assertEqual(self.held_particles(), [0, 27])
         self.assertEqual(len(copies(self.next_state())), 6)
 
     def test_an_agent_that_holds_one_particle_grips_no_other(self):
-        self.assert_refused("already", "hold", HoldParticle, AGENT, 26, "")
-        self.assert_refused("it must be", "hold", HoldParticle, AGENT, 26, "glued")
-        self.assert_refused("no agent 'nobody'", "hold", HoldParticle, "nobody", 26, "")
+        self.assert_refused("already", "hold", HoldParticle, AGENT, 26, "", [])
+        self.assert_refused("it must be", "hold", HoldParticle, AGENT, 26, "glued", [])
+        self.assert_refused("no agent 'nobody'", "hold", HoldParticle, "nobody", 26, "", [])
         self.assertEqual(self.held_particles(), [0, 27])
 
     def test_material(self):

@@ -11,13 +11,15 @@ namespace control {
 
 //! What the joints of a rod bear: it follows from the wrenches at the grips and the weight of the segments in between.
 //!
-//! With the grips a and the segments i up to a joint at x, and their centres c,
-//!   force  = sum_a F_a - sum_i w ,   moment = sum_a (T_a + (c_a - x) x F_a) - sum_i (c_i - x) x w ,
-//! on the joint's first segment; F and T are what the rod exerts on the agents.
+//! With the grips a and the segments i up to a joint at x, their centres c and directions d,
+//!   force  = sum_a F_a - sum_i m_i w ,   moment = sum_a (T_a + (c_a - x) x F_a) - sum_i (m_i (c_i - x) + e_i d_i) x w
+//!   ,
+//! on the joint's first segment; F and T are what the rod exerts on the agents, w is the weight of a segment that
+//! carries nothing, m_i w that of segment i with its point masses, and e_i w the moment of masses off its centre.
 class JointLoads {
  public:
-  //! @param section with the keys `weight` [N] of a segment of the usual length, `shares` [N], the lengths of the
-  //! segments over that (empty: all 1), and `particles`, the segment that each agent holds
+  //! @param section with the keys `weight` [N] of a segment of the usual length that carries nothing, `masses`, a row
+  //! (m, e [m]) per segment, and `particles`, the segment that each agent holds
   JointLoads(const ParameterSection& section, const Team& team);
 
   //! [N] On the joint's first segment.
@@ -33,11 +35,10 @@ class JointLoads {
   void addMomentGradient(const ObjectShape& shape, int joint, const Vector3& by, std::vector<Vector6>& gradients) const;
 
  private:
-  double shareOf(int segment) const { return shares_.empty() ? 1.0 : shares_[segment]; }
-
   Vector3 weight_;
-  std::vector<double> shares_;  // [N]
-  std::vector<double> before_;  // [N] sums of them, up to each segment
+  std::vector<double> masses_;  // [S] m
+  std::vector<double> before_;  // [S + 1] sums of them: before_[i] without that of segment i
+  std::vector<double> leans_;   // [S] m, e
   std::vector<int> particles_;  // [A]
 };
 

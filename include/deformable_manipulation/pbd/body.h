@@ -13,17 +13,30 @@ namespace deformable_manipulation {
 namespace pbd {
 
 //! A particle that an agent holds, and how it moves.
+//!
+//! An agent's grip holds one particle, or several as one rigid piece: a clamp bar, a hand. One of them is at the grip's
+//! point and leads; the others keep their places relative to it.
 struct HeldPoint {
   int particle;
   Hold type;
-  Pose pose;    //!< in the body itself (copy 0)
-  Twist twist;  //!< constant until changed
+  Pose pose;            //!< in the body itself (copy 0)
+  Twist twist;          //!< constant until changed
+  int grip = particle;  //!< the particle that leads its grip
+  Pose place = Pose();  //!< relative to the leading particle
+
+  bool leads() const { return grip == particle; }
+};
+
+//! A particle that a grip holds besides the one at its point.
+struct FurtherParticle {
+  int particle;
+  Pose place;  //!< relative to the pose of the grip, which it keeps
 };
 
 //! A perturbed copy of the body: the same object with one held point displaced.
 struct PerturbedCopy {
   int id;                //!< never used again after the copy is removed
-  int particle;          //!< held particle that is displaced
+  int particle;          //!< held particle that is displaced, with all others of its grip
   Vector3 requested;     //!< [m] displacement asked for
   Vector3 target;        //!< [m] where it goes: the request, shortened or reversed to stay in reach
   Vector3 present;       //!< [m] where it is
@@ -75,6 +88,13 @@ class Body {
   //! [kg]
   virtual double mass() const = 0;
 
+  //! Pose of a particle of the undeformed object, held nowhere; that of the whole object where particles have no
+  //! orientation. @throw std::out_of_range
+  virtual Pose undeformedPose(int particle) const = 0;
+
+  //! Whether particles have orientations.
+  virtual bool particlesTurn() const = 0;
+
   //! Relative error of the length (or size) of the object itself against the unstretched one.
   virtual double stretch() const = 0;
 
@@ -99,12 +119,18 @@ class Body {
   //! @throw std::invalid_argument if it is held already, or the pose is not finite or not of norm 1.
   void hold(int particle, Hold type, const Pose& pose);
 
-  //! Lets a particle go; copies that displace it are removed.
-  //! @throw std::invalid_argument if the particle is not held.
+  //! Holds several particles by one grip, as one rigid piece, which is put at a pose.
+  //! @param particle  at the grip's point; it stands for the grip wherever a held particle is asked for
+  //! @throw std::out_of_range if there is no such particle
+  //! @throw std::invalid_argument if one is held already or given twice, or a pose is not finite or not of norm 1.
+  void hold(int particle, const std::vector<FurtherParticle>& further, Hold type, const Pose& pose);
+
+  //! Lets a grip go; copies that displace it are removed.
+  //! @throw std::invalid_argument if the particle is not held, or follows another one.
   void release(int particle);
 
   //! Sets the velocity with which a held particle moves from now on.
-  //! @throw std::invalid_argument if the particle is not held or the twist is not finite.
+  //! @throw std::invalid_argument if the particle is not held or follows another one, or the twist is not finite.
   void setTwist(int particle, const Twist& twist);
 
   //! Puts a held particle at a pose at once, for agents whose pose is given by others.
@@ -116,7 +142,11 @@ class Body {
   //! @throw std::invalid_argument as setPose(), or if the duration is not finite and positive.
   void moveTo(int particle, const Pose& pose, double duration);
 
+  //! All held particles, in order. Grips are in the order of the particles that lead them.
   const std::vector<HeldPoint>& holds() const { return holds_; }
+
+  //! The number of grips: of held particles that lead.
+  int gripCount() const;
 
   //! @throw std::invalid_argument if the particle is not held.
   const HeldPoint& held(int particle) const;
@@ -126,18 +156,22 @@ class Body {
   //! @throw std::invalid_argument if the particle is not held.
   virtual Wrench wrench(int particle, int copy = 0) const = 0;
 
+  //! The same of all particles of a grip together, about its point.
+  //! @throw std::invalid_argument if the particle is not held.
+  Wrench gripWrench(int particle, int copy = 0) const;
+
   //! Quasi-static response: the exact derivative of the points of the object itself, in the equilibrium
-  //! between its holds, with respect to each held point. Starts from what the last call found.
-  //! @param to [holds x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
+  //! between its holds, with respect to each grip's point. Starts from what the last call found.
+  //! @param to [grips x pointCount x 3 x 3] d point / d held point; written only where the result is VALID
   virtual ResponseStatus response(double* to);
 
   //! Of the equilibrium that the last response() found, if it was VALID: derivative of the points with respect to turns
-  //! about each held point, [holds x pointCount x 3 x 3] m.
+  //! about each grip's point, [grips x pointCount x 3 x 3] m.
   //! @return false: not available
   virtual bool turningResponse(double* to) const;
 
-  //! The same of the wrenches at the holds, with respect to each held point and turns about it,
-  //! [holds x 6 x holds x 6]. @return false: not available
+  //! The same of the wrenches at the grips, with respect to each grip's point and turns about it,
+  //! [grips x 6 x grips x 6]. @return false: not available
   virtual bool wrenchResponse(double* to) const;
 
   //! What tells how the object rests if it is held elsewhere; null: there is none for objects of this kind.
@@ -148,7 +182,7 @@ class Body {
 
   //! Adds a copy; it starts as the object is now and moves to its displacement.
   //! @return the copy's id
-  //! @throw std::invalid_argument if the particle is not held, or the displacement is zero, not
+  //! @throw std::invalid_argument if the particle is not held or follows another one, or the displacement is zero, not
   //! finite or longer than the object.
   int addCopy(int particle, const Vector3& displacement);
 
@@ -256,7 +290,11 @@ class Body {
 
  private:
   HeldPoint& findHeld(int particle);
+  const HeldPoint& leading(int particle) const;
+  void requireFree(int particle) const;
   void advanceHolds(double h);
+  void placeFollowers();
+  void moveFollowers();
   template <typename Settling>
   auto quicklyDamped(const SettleOptions& options, Settling settling);
   bool settleAsDamped(const SettleOptions& options);

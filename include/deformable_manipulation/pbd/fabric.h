@@ -14,8 +14,8 @@ class FabricResponse;
 //! A fabric: springs along the edges of a triangle mesh and bending across them (Bergou et al. 2006), by extended
 //! position-based dynamics (Macklin et al. 2016) with small substeps (Macklin et al. 2019).
 //!
-//! Particles and geometry points are the vertices. Particles have no orientation: CLAMPED and PINNED hold alike, and
-//! poses have the identity.
+//! Particles and geometry points are the vertices. Particles have no orientation: CLAMPED and PINNED hold a single one
+//! alike, and poses have the identity.
 class Fabric final : public Body {
  public:
   //! The unstretched fabric at rest at its pose, held nowhere.
@@ -46,6 +46,8 @@ class Fabric final : public Body {
   //! [m] Distance along the unstretched surface: exact where it is flat and convex, elsewhere the length of a path
   //! on the surface that is nearly the shortest, so never too short.
   double freeLength(int particle, int other) const override;
+  Pose undeformedPose(int particle) const override;
+  bool particlesTurn() const override { return false; }
   double mass() const override;
 
   //! Mean elongation of the edges, weighted with the area of their triangles.
@@ -56,6 +58,10 @@ class Fabric final : public Body {
   //! step after a change of holds or material. While the fabric snaps to another shape, the last response stays in use
   //! for up to 300 calls; then it is UNSTABLE.
   ResponseStatus response(double* to) override;
+
+  //! Of grips that hold several vertices; turns about a single one move nothing.
+  bool turningResponse(double* to) const override;
+  bool wrenchResponse(double* to) const override;
   void layOut() override;
   void points(double* to) const override;
   Pose pose(int particle) const override;

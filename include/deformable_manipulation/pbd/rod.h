@@ -43,10 +43,14 @@ class Rod final : public Body {
   std::vector<double> arcLengths() const override;
   std::vector<double> jointLengths() const;  //!< [N - 1] m, of the rod that bends in each joint
   double freeLength(int particle, int other) const override;
+  Pose undeformedPose(int particle) const override;
+  bool particlesTurn() const override { return true; }
   double mass() const override { return parameters_.mass(); }
   double stretch() const override;
   std::string softness(double time_step, int substeps) const override;
   Wrench wrench(int particle, int copy = 0) const override;
+
+  //! Not available where a grip holds several segments.
   ResponseStatus response(double* to) override;
   bool turningResponse(double* to) const override;
   bool wrenchResponse(double* to) const override;

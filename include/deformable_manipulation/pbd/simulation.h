@@ -11,12 +11,13 @@
 namespace deformable_manipulation {
 namespace pbd {
 
-//! An agent that holds one particle of the object and moves as commanded.
+//! An agent that holds one particle of the object, or several as one rigid piece, and moves as commanded.
 struct Agent {
   std::string name;
   int particle = 0;
   Hold hold = Hold::CLAMPED;
-  Pose start;  //!< held point at the start
+  Pose start;                     //!< held point at the start
+  std::vector<int> further = {};  //!< particles held besides, as they lie around the first one on the undeformed object
 };
 
 //! A perturbed copy: the held point of one agent displaced.
@@ -84,11 +85,13 @@ class Simulation {
   //! @throw std::logic_error if it holds none
   void release(int agent);
 
-  //! Grips a particle where it is; the agent is put there, and its perturbed copies come back.
+  //! Grips a particle where it is, and further ones where they are; the agent is put there, and its perturbed copies
+  //! come back.
   //! @throw std::out_of_range if there is no such agent or particle
-  //! @throw std::logic_error if the agent holds one already, another agent holds
-  //! this one, or the particle is farther from the agent than kGripReach.
-  void hold(int agent, int particle, Hold type);
+  //! @throw std::logic_error if the agent holds one already, another agent holds one of
+  //! these, or one is farther than kGripReach from the agent, or from where the undeformed object has it around the
+  //! first.
+  void hold(int agent, int particle, Hold type, const std::vector<int>& further = {});
 
   //! [m] An agent can grip a particle up to this far from it.
   static constexpr double kGripReach = 0.1;
@@ -117,10 +120,10 @@ class Simulation {
   const std::vector<Agent>& agents() const { return agents_; }
   const Clock& clock() const { return clock_; }
 
-  //! Index of the agent that holds a particle, or -1.
+  //! Index of the agent whose grip a particle leads, or -1.
   int agentOf(int particle) const;
 
-  //! The particle that an agent holds, or -1. @throw std::out_of_range
+  //! The particle at the point of an agent's grip, or -1: it holds nothing. @throw std::out_of_range
   int particleOf(int agent) const;
 
   //! Where an agent is: its held point. @throw std::out_of_range
@@ -166,6 +169,7 @@ class Simulation {
   AgentState& state(int agent) { return states_.at(static_cast<std::size_t>(agent)); }
   const AgentState& state(int agent) const { return states_.at(static_cast<std::size_t>(agent)); }
   void settle();
+  std::vector<FurtherParticle> heldAround(const Pose& grip, int particle, const std::vector<int>& further) const;
   void spreadOverAgents(std::size_t numbers, double* to) const;
   std::vector<double> heldArcLengths() const;
   void restartCorrection();

@@ -125,15 +125,20 @@ def describe_controller(controller, assistants: int) -> str:
     return "controller: {}".format(", ".join(parts))
 
 
+def _particles(agent) -> str:
+    further = ", ".join(map(str, agent.further_particles))
+    return "particle {}{}".format(agent.particle, further and " with " + further)
+
+
 def summary(scenario: Scenario) -> Iterator[str]:
     """Lines that tell what a scenario holds."""
     yield "object: {}".format(scenario.object.description())
     yield "material: {}".format(scenario.object.material_description())
     for agent in scenario.agents:
-        yield "agent {}: {}, holds particle {} ({}), starts at ({})".format(
+        yield "agent {}: {}, holds {} ({}), starts at ({})".format(
             agent.name,
             agent.role,
-            agent.particle,
+            _particles(agent),
             agent.hold,
             ", ".join("{:.4g}".format(c) for c in agent.start),
         )

@@ -4,7 +4,9 @@ import math
 
 import numpy as np
 
+from deformable_manipulation.geometry.rotation import conjugate, from_vector, multiply, to_vector
 from deformable_manipulation.motion.intent import Intent, times_ahead
+from deformable_manipulation.motion.orientation_path import OrientationPath
 from deformable_manipulation.motion.smooth_path import SmoothPath
 
 _AT_START = 1e-3  # m
@@ -44,6 +46,61 @@ def _positions(waypoints):
                 f"leader.waypoints[{index}].position: {waypoint.position} must be three numbers [m]"
             )
     return np.array([waypoint.position for waypoint in waypoints], dtype=float)
+
+
+class LeaderTurning:
+    """Angular velocity command that keeps the leader's orientation on its path.
+
+    As :class:`LeaderController` does for the position: the command puts the grip exactly where the
+    path has it when the command ends to act. Only the return to the path is limited, to
+    ``controller.max_angular_velocity`` in all.
+
+    Args:
+        scenario: :class:`~deformable_manipulation.scenario.spec.Scenario`; the waypoints turn the
+            grip from the leader's orientation at the start.
+    """
+
+    def __init__(self, scenario):
+        waypoints = scenario.leader.waypoints
+        start = scenario.agents[scenario.leader_index].orientation
+        self.turns = any(waypoint.is_turned for waypoint in waypoints)
+        self._path = OrientationPath(
+            [waypoint.time for waypoint in waypoints],
+            [multiply(waypoint.orientation, start) for waypoint in waypoints],
+        )
+        self._cycle_time = scenario.cycle_time
+        self._max_return = scenario.controller.max_angular_velocity
+        self.reset()
+
+    def reset(self):
+        """Forget the previous command: the grip is at rest."""
+        self._time = None
+        self._velocity = np.zeros(3)
+
+    def update(self, time, orientation):
+        """Angular velocity command [rad/s] (3,) for one state; see LeaderController.update.
+
+        Args:
+            time: of the state [s], since the start of the run.
+            orientation: of the leader's grip, a quaternion of norm 1.
+        """
+        if not self.turns or not all(map(math.isfinite, (time, *orientation))):
+            self._velocity = np.zeros(3)
+            return self._velocity
+        if self._time is not None and time < self._time - 1.0:
+            self.reset()
+        if self._time is None or time > self._time:
+            self._velocity = self._command(time, tuple(map(float, orientation)))
+            self._time = time
+        return self._velocity
+
+    def _command(self, time, orientation):
+        dt = self._cycle_time
+        begin, end = self._path.at(time + dt)[0], self._path.at(time + 2.0 * dt)[0]
+        then = multiply(from_vector(dt * self._velocity), orientation)
+        back = np.array(to_vector(multiply(begin, conjugate(then)))) / dt
+        back *= self._max_return / max(self._max_return, float(np.linalg.norm(back)))
+        return np.array(to_vector(multiply(end, conjugate(begin)))) / dt + back
 
 
 class LeaderController:

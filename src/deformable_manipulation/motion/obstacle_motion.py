@@ -5,22 +5,9 @@ from typing import List, NamedTuple
 import numpy as np
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
-from deformable_manipulation.geometry.rotation import (
-    angular_velocity,
-    conjugate,
-    from_vector,
-    multiply,
-    rate_of,
-    to_vector,
-)
-from deformable_manipulation.motion.smooth_path import (
-    Pieces,
-    SmoothPath,
-    polynomial,
-    quintics,
-    slope,
-    waypoint_rates,
-)
+from deformable_manipulation.geometry.rotation import multiply
+from deformable_manipulation.motion.orientation_path import OrientationPath
+from deformable_manipulation.motion.smooth_path import SmoothPath
 from deformable_manipulation.scenario.spec import PathMotion
 
 _AT_REST = (0.0, 0.0, 0.0)
@@ -40,8 +27,7 @@ class ObstaclePath:
 
     Positions are added to the obstacle's own translation, along the axes of the fixed frame;
     orientations turn it about its origin, from its own rotation. Positions are interpolated as
-    the leader's are. Between two orientations the rotation vector from the first is a quintic whose
-    ends have the angular velocities chosen at the waypoints; it takes the shorter way round.
+    the leader's are, orientations as :class:`~.orientation_path.OrientationPath` does.
 
     Args:
         obstacle: of the scenario, with a PathMotion.
@@ -52,8 +38,8 @@ class ObstaclePath:
         times = [waypoint.time for waypoint in waypoints]
         positions = np.add(obstacle.translation, [waypoint.position for waypoint in waypoints])
         self._position = SmoothPath(times, positions)
-        self._orientation = _OrientationPath(
-            np.array(times),
+        self._orientation = OrientationPath(
+            times,
             [multiply(waypoint.orientation, obstacle.rotation) for waypoint in waypoints],
         )
 
@@ -63,36 +49,6 @@ class ObstaclePath:
         return MovingPose(
             tuple(self._position.at(time)), rotation, tuple(self._position.rate_at(time)), angular
         )
-
-
-class _OrientationPath:
-    """Orientations (K) at times (K,) [s], smooth in between."""
-
-    def __init__(self, times, orientations: List[Quaternion]):
-        self._pieces = Pieces(times)
-        self._starts = orientations
-        turns = np.array(
-            [to_vector(multiply(b, conjugate(a))) for a, b in zip(orientations, orientations[1:])]
-        ).reshape(-1, 3)
-        rates = waypoint_rates(times, turns)
-        durations = np.diff(times)[:, None]
-        last = np.array([rate_of(turn, rate) for turn, rate in zip(turns, rates[1:])])
-        self._polynomials = (
-            quintics(
-                np.zeros_like(turns), turns, durations * rates[:-1], durations * last.reshape(-1, 3)
-            )
-            .transpose(0, 2, 1)
-            .tolist()
-        )
-
-    def at(self, time):
-        """Orientation and angular velocity [rad/s]."""
-        if not self._polynomials:
-            return self._starts[0], _AT_REST
-        i, s, duration = self._pieces.locate(time)
-        turn = [polynomial(coefficients, s) for coefficients in self._polynomials[i]]
-        rate = [slope(coefficients, s) / duration for coefficients in self._polynomials[i]]
-        return multiply(from_vector(turn), self._starts[i]), angular_velocity(turn, rate)
 
 
 class MovingObstacles:

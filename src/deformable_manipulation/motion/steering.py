@@ -6,7 +6,7 @@ import numpy as np
 
 from deformable_manipulation.motion.bounded_motion import BoundedMotion
 from deformable_manipulation.motion.intent import Intent
-from deformable_manipulation.motion.leader import LeaderController
+from deformable_manipulation.motion.leader import LeaderController, LeaderTurning
 from deformable_manipulation.scenario import leader_workspace
 
 # RViz repeats that a marker is held four times per second.
@@ -88,6 +88,7 @@ class SteeredLeader:
 
     def __init__(self, scenario, follows_path=True, clock=time.monotonic):
         self._path = LeaderController(scenario)
+        self._turning = LeaderTurning(scenario)
         self._follows_path = follows_path
         settings = scenario.leader
         motion = BoundedMotion(
@@ -109,6 +110,7 @@ class SteeredLeader:
 
     def _restart_path(self):
         self._path.reset()
+        self._turning.reset()
         self._origin = None  # s, time of the path's begin; None: it has not begun
         self._told_to_start = False
 
@@ -160,6 +162,19 @@ class SteeredLeader:
             self._velocity = self._hand.velocity(position, self._velocity)
             self._time = time
         return np.array(self._velocity)
+
+    def turn(self, time, orientation):
+        """Angular velocity command [rad/s] (3,) for a state whose :meth:`update` is done.
+
+        Zero by hand, and before the path begins.
+
+        Args:
+            time: of the state [s].
+            orientation: of the leader's grip, a quaternion of norm 1.
+        """
+        if self.source != PATH:
+            return np.zeros(3)
+        return self._turning.update(time - self._origin, orientation)
 
     def intent(self):
         """The Intent at the newest state; None by hand and before the path begins."""

@@ -300,6 +300,22 @@ class RodSpec(ObjectSpec):
         """Of the whole rod with its point masses [kg]."""
         return self.mass_per_length * self.length + sum(each.mass for each in self.point_masses)
 
+    def segment_masses(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Masses (N,) [kg] of the segments with the point masses that they carry.
+
+        And moments (N,) [kg m] of masses off the segments' centres, towards the last end.
+        """
+        piece = self.length / self.segments
+        lengths = np.array(self.segment_lengths)
+        masses = self.mass_per_length * self.length / self.segments * (lengths / piece)
+        moments = np.zeros(self.segments)
+        ends = np.array(self.arc_lengths)
+        for point in self.point_masses:
+            segment = min(int(np.searchsorted(ends, point.at, "right")) - 1, self.segments - 1)
+            masses[segment] += point.mass
+            moments[segment] += point.mass * (point.at - 0.5 * (ends[segment] + ends[segment + 1]))
+        return masses, moments
+
     @property
     def mass_per_length(self) -> float:
         """Without point masses [kg/m]."""

@@ -119,6 +119,9 @@ class PlayedRun:
         state.points = points.ravel()
         state.agents = [agent.name for agent in scenario.agents]
         state.agent_particles = np.array([a.particle for a in scenario.agents], dtype=np.int32)
+        further = [(k, i) for i, a in enumerate(scenario.agents) for k in a.further_particles]
+        state.further_particles = np.array([particle for particle, _ in further], dtype=np.int32)
+        state.further_agents = np.array([agent for _, agent in further], dtype=np.int32)
         state.agent_positions = agents.ravel()
         state.agent_orientations = np.tile([0.0, 0.0, 0.0, 1.0], len(agents))
         state.displaced_agents = np.array([-1], dtype=np.int32)

@@ -3,13 +3,15 @@
 import time
 from typing import Dict, Optional, Tuple
 
+import numpy as np
+
 from deformable_manipulation.control.decision import Decision
 from deformable_manipulation.control.observation import Observation
 from deformable_manipulation.control.overload import has_load_limits, refuse_overloads
 from deformable_manipulation.control.team import TeamController, teams
 from deformable_manipulation.distance.factory import make_known_distance, make_minimum_distance
 from deformable_manipulation.motion.intent import Intent
-from deformable_manipulation.motion.leader import LeaderController
+from deformable_manipulation.motion.leader import LeaderController, LeaderTurning
 from deformable_manipulation.recording.timeseries import CycleRecord, CycleTimings
 from deformable_manipulation.running.announcer import Announcer
 from deformable_manipulation.running.imperfect import ImperfectKnowledge
@@ -48,6 +50,7 @@ class ClosedLoop:
         self._sight = Sight(scenario) if live_obstacles(scenario) else None
         self._truth = TrueDistance(scenario, self._simulation)
         self._leader = LeaderController(scenario)
+        self._turning = LeaderTurning(scenario)
         self._leader_index = scenario.leader_index
         self._announcer = Announcer(scenario, self._leader)
         self._intent: Optional[Intent] = None  # as announced with the state before
@@ -105,6 +108,7 @@ class ClosedLoop:
         decisions = self._decide(observation)
         leader = self._leader_index
         leader_velocity = self._leader.update(observation.time, observation.positions[leader])
+        leader_turning = self._turn_leader(observation)
         self._intent = self._announcer.announce(observation.time)
         decided = time.perf_counter()
         velocities = simulation.velocities()
@@ -114,7 +118,7 @@ class ClosedLoop:
 
         advancing = time.perf_counter()
         simulation.advance()
-        simulation.set_command(leader, leader_velocity)
+        simulation.set_command(leader, leader_velocity, leader_turning)
         for index in self._scenario.assistants:
             name = self._scenario.agents[index].name
             decision = decisions[name]
@@ -138,6 +142,12 @@ class ClosedLoop:
                 controller=decided - measured,
             ),
         )
+
+    def _turn_leader(self, observation: Observation) -> np.ndarray:
+        """The leader's angular velocity (3,) [rad/s]; zero where its path does not turn it."""
+        if not self._turning.turns or observation.orientations is None:
+            return np.zeros(3)
+        return self._turning.update(observation.time, observation.orientations[self._leader_index])
 
     def _margins(self) -> Dict[str, Dict[str, float]]:
         """The present h of each barrier, of all assistants by their names."""

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from functools import partial
-from typing import Dict, Optional, Tuple
+from typing import Dict, Iterable, Optional, Tuple
 
 from deformable_manipulation.geometry.pose import Quaternion, Vector
 from deformable_manipulation.objects.grip import GRIP_LENGTH
@@ -13,6 +13,7 @@ from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import (
     Choice,
     Integer,
+    Items,
     Node,
     Section,
     UnitQuaternion,
@@ -26,15 +27,18 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 LEADER = "leader"
 ASSISTANT = "assistant"
+PINNED = "pinned"
+
+_PARTICLE = Integer(0, 2**31 - 1)
 
 
 @dataclass(frozen=True)
 class AgentSpec:
-    """A robot or person that holds one particle of the object."""
+    """A robot or person that holds one particle of the object, or several as one rigid piece."""
 
     name: str
     particle: int = parameter(
-        Integer(0, 2**31 - 1),
+        _PARTICLE,
         "The held particle: a rod's segment, held at its centre, or a fabric's vertex.",
         allowed="a particle of the object",
     )
@@ -42,11 +46,20 @@ class AgentSpec:
         Choice(LEADER, ASSISTANT),
         "The leader follows its path. Assistants keep their place relative to it.",
     )
+    further_particles: Tuple[int, ...] = parameter(
+        Items(_PARTICLE),
+        "Vertices of a fabric that the grip holds besides `particle`, such as a clamp bar or a "
+        "hand does ([Grips of several vertices](#grips-of-several-vertices)).",
+        default=(),
+        default_text="none",
+        allowed="vertices that nobody holds yet",
+    )
     hold: str = parameter(
-        Choice("clamped", "pinned"),
+        Choice("clamped", PINNED),
         "`clamped` keeps the particle's orientation, `pinned` leaves it free. There is no "
-        "difference for fabrics, whose particles are points.",
+        "difference for single vertices of fabrics, which are points.",
         default="clamped",
+        allowed="`clamped` with `further_particles`",
     )
     grip_length: Optional[float] = parameter(
         GRIP_LENGTH,
@@ -75,11 +88,17 @@ class AgentSpec:
     )
     orientation: Quaternion = parameter(
         UnitQuaternion(),
-        "Orientation of the held particle. A clamped particle keeps it.",
+        "Orientation of the held particle. A clamped particle keeps it. Further particles lie "
+        "around it as on the undeformed object, turned by it.",
         default=(0.0, 0.0, 0.0, 1.0),
         default_text="that of the particle on the undeformed object: `object.pose.orientation`, "
         "unless it has a `natural_shape`",
     )
+
+    @property
+    def particles(self) -> Tuple[int, ...]:
+        """All particles that it holds, that at the held point first."""
+        return (self.particle, *self.further_particles)
 
 
 # start and orientation follow from the object where they are left out.
@@ -145,6 +164,16 @@ def _check_particles(node: Node, drafts: Dict[str, Draft], spec) -> None:
             node.report.add(node.path + (name, "particle"), problem, show(particle))
             del draft["particle"]
         holders.setdefault(particle, name)
+    for name, draft in drafts.items():
+        further = draft.get("further_particles", ())
+        problems = [
+            *_particle_problems(further, name, holders, spec),
+            *_grip_problems(draft, spec),
+        ]
+        for key, problem in problems:
+            node.report.add(node.path + (name, key), problem, show(list(further)))
+        if problems:
+            del draft["further_particles"]
 
 
 def _particle_problem(particle: int, holder: Optional[str], spec) -> Optional[str]:
@@ -153,6 +182,39 @@ def _particle_problem(particle: int, holder: Optional[str], spec) -> Optional[st
     if holder is not None:
         return "is already held by agent {}; give each agent its own particle".format(holder)
     return None
+
+
+def _particle_problems(
+    further: Iterable[int], name: str, holders: Dict[int, str], spec
+) -> Iterable[Tuple[str, str]]:
+    """Keys and what is wrong with further particles, whose agent is added to the holders."""
+    for particle in further:
+        holder = holders.get(particle)
+        if spec is not None and particle >= spec.particles:
+            problem = "has {}, which is no particle of the object: 0 to {}".format(
+                particle, spec.particles - 1
+            )
+            yield "further_particles", problem
+        elif holder == name:
+            yield "further_particles", "has {} twice, or it is the particle itself".format(particle)
+        elif holder is not None:
+            problem = "has {}, which is already held by agent {}".format(particle, holder)
+            yield "further_particles", problem
+        holders.setdefault(particle, name)
+
+
+def _grip_problems(draft: Draft, spec) -> Iterable[Tuple[str, str]]:
+    """Keys and what is wrong with an agent that holds several particles."""
+    if not draft.get("further_particles"):
+        return
+    if spec is not None and not spec.is_surface:
+        yield (
+            "further_particles",
+            "are for fabrics: a clamped segment of a {} keeps its orientation by itself. Leave "
+            "them out".format(spec.type),
+        )
+    if draft.get("hold") == PINNED:
+        yield "hold", "must be clamped with further_particles, which the grip turns"
 
 
 def _complete(name: str, draft: Draft, spec) -> AgentSpec:

@@ -1,7 +1,7 @@
 """Checks of a scenario's sections against each other, for sections that are right by themselves."""
 
 import math
-from itertools import combinations
+from itertools import combinations, product
 from typing import Sequence, Tuple
 
 from deformable_manipulation.reading.errors import show
@@ -9,6 +9,7 @@ from deformable_manipulation.reading.parameter import declared
 from deformable_manipulation.reading.readers import Report, Slopes
 from deformable_manipulation.scenario.barriers import BARRIERS
 from deformable_manipulation.scenario.barriers.pairs import limits_between
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.scenario.spec import (
     LEADER,
     AgentSpec,
@@ -119,6 +120,27 @@ def check_starts(report: Report, spec, agents: Tuple[AgentSpec, ...]) -> None:
                 "is {:.4g} m from {{}}, beyond the free length {:.4g} m of the object between "
                 "them".format(distance, length),
             )
+        else:
+            _check_grips_apart(report, spec, first, second)
+
+
+def _check_grips_apart(report: Report, spec, first: AgentSpec, second: AgentSpec) -> None:
+    """No two particles of two grips start further apart than the object reaches."""
+    if not first.further_particles and not second.further_particles:
+        return
+    for (i, here), (j, there) in product(
+        held_points(spec, first).items(), held_points(spec, second).items()
+    ):
+        length, distance = spec.free_length(i, j), _distance(here, there)
+        if _exceeds(distance, length):
+            _report_start(
+                report,
+                first,
+                second,
+                "puts particles {} and {}, which {{}} and it hold, {:.4g} m apart, beyond the free "
+                "length {:.4g} m of the object between them".format(i, j, distance, length),
+            )
+            return
 
 
 def check_limits(

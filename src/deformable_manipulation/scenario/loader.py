@@ -25,7 +25,7 @@ from deformable_manipulation.scenario.camera import (
 from deformable_manipulation.scenario.correction import check_correction, check_measured_points
 from deformable_manipulation.scenario.files import find_scenario
 from deformable_manipulation.scenario.formulation import CONTROLLER, check_formulation
-from deformable_manipulation.scenario.orientation import check_orientation
+from deformable_manipulation.scenario.orientation import check_orientation, check_turning_leader
 from deformable_manipulation.scenario.spec import Scenario
 from deformable_manipulation.scenario.world import check_world
 
@@ -148,6 +148,7 @@ def _check_together(report: Report, parts: Dict[str, Any]) -> None:
     check(checks.check_loop, "controller")
     check(controller.check_priority, "controller")
     check(check_orientation, "object", "agents", "controller", "knowledge")
+    check(check_turning_leader, "leader", "controller", "knowledge")
     check(check_formulation, "controller")
     check(checks.check_time, "controller", "simulation")
     check(knowledge.check_delay, "controller", "knowledge")

@@ -4,13 +4,24 @@ import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from deformable_manipulation.geometry.pose import Vector
+from deformable_manipulation.geometry.pose import Quaternion, Vector
+from deformable_manipulation.geometry.rotation import conjugate, multiply, to_vector
 from deformable_manipulation.reading.errors import show
 from deformable_manipulation.reading.parameter import parameter
-from deformable_manipulation.reading.readers import Node, Number, Section, position, read_items
+from deformable_manipulation.reading.readers import (
+    Node,
+    Number,
+    Section,
+    UnitQuaternion,
+    position,
+    read_items,
+)
 from deformable_manipulation.reading.times import SHORTEST_PIECE, TIME, check_times
 
 _LARGEST_SPEED = 5.0  # m/s, mean between waypoints: twice that is refused as a command
+_LARGEST_TURN_RATE = 4.0  # rad/s, likewise: orientations that leap stop the assistants at 10 rad/s
+_UNTURNED = (0.0, 0.0, 0.0, 1.0)
+_SMALL_TURN = 1e-9  # rad
 
 
 @dataclass(frozen=True)
@@ -27,6 +38,20 @@ class Waypoint:
         "Where it is, relative to its start.",
         allowed="the first `[0, 0, 0]`, then within 5 m/s of the one before",
     )
+    orientation: Quaternion = parameter(
+        UnitQuaternion(),
+        "How far its grip is turned there, after `orientation` of the agent, about the axes of the "
+        "fixed frame. From one waypoint to the next it turns the shorter way round. Assistants "
+        "turn with it with `controller.orientation: follow`.",
+        default=_UNTURNED,
+        allowed="the first `[0, 0, 0, 1]`, then within 4 rad/s of the one before; all are so with "
+        "`controller.orientation: fixed`",
+    )
+
+    @property
+    def is_turned(self) -> bool:
+        """Whether its orientation is not that of the start."""
+        return math.hypot(*to_vector(self.orientation)) > _SMALL_TURN
 
 
 WAYPOINT = Section(Waypoint)
@@ -36,7 +61,10 @@ class Waypoints:
     """A list of waypoints: times increasing, the first at time 0 and at the leader's start."""
 
     type, unit, range = "list", "", "one or more"
-    allowed = "a list of waypoints {time: s, position: [x, y, z]}, the first at time 0"
+    allowed = (
+        "a list of waypoints {time: s, position: [x, y, z], orientation: [x, y, z, w]}, the first "
+        "at time 0"
+    )
 
     def __call__(self, node: Node) -> Tuple[Waypoint, ...]:
         if not isinstance(node.value, (list, tuple)) or not node.value:
@@ -57,6 +85,12 @@ def _check_first(node: Node, first: Waypoint) -> None:
             "must be [0, 0, 0]: positions are relative to the leader's start",
             show(list(first.position)),
         )
+    if first.is_turned:
+        node.report.add(
+            node.path + ("0", "orientation"),
+            "must be [0, 0, 0, 1]: orientations are relative to the leader's start",
+            show(list(first.orientation)),
+        )
 
 
 def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
@@ -72,6 +106,16 @@ def _check_speeds(node: Node, waypoints: Tuple[Waypoint, ...]) -> None:
                     farthest, _LARGEST_SPEED, duration
                 ),
                 show(list(waypoint.position)),
+            )
+        turn = multiply(waypoint.orientation, conjugate(before.orientation))
+        most = _LARGEST_TURN_RATE * duration
+        if math.hypot(*to_vector(turn)) > most:
+            node.report.add(
+                node.path + (str(index), "orientation"),
+                "must be at most {:.4g} rad from the waypoint before, {:g} rad/s in {:g} s".format(
+                    most, _LARGEST_TURN_RATE, duration
+                ),
+                show(list(waypoint.orientation)),
             )
 
 

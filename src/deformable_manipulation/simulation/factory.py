@@ -31,7 +31,14 @@ def make_simulation(scenario: Scenario, copies: bool = True) -> _pbd.Simulation:
         _pbd.ParameterError: a parameter is out of range.
     """
     agents = [
-        (agent.name, agent.particle, agent.hold, agent.start, agent.orientation)
+        (
+            agent.name,
+            agent.particle,
+            agent.hold,
+            agent.start,
+            agent.orientation,
+            agent.further_particles,
+        )
         for agent in scenario.agents
     ]
     return _pbd.Simulation(

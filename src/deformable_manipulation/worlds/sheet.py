@@ -7,6 +7,7 @@ import numpy as np
 from deformable_manipulation.geometry.pose import Vector
 from deformable_manipulation.objects.fabric import FabricSpec
 from deformable_manipulation.scenario.agents import AgentSpec
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.worlds.engine import load_engine, require_stable
 from deformable_manipulation.worlds.flex_model import flex_xml
 
@@ -36,7 +37,11 @@ class Sheet:
         self._engine = load_engine()
         particles = range(spec.particles)
         vertices = np.array([spec.particle_position(each) for each in particles])
-        held = [agent.particle for agent in agents]
+        points = [held_points(spec, agent) for agent in agents]
+        held = [particle for each in points for particle in each]
+        places = np.array([place for each in points for place in each.values()])
+        self._grips = np.repeat(np.arange(len(agents)), [len(each) for each in points])
+        self._arms = places - np.array([agents[grip].start for grip in self._grips])
         xml = flex_xml(
             vertices,
             spec.faces(),
@@ -55,15 +60,15 @@ class Sheet:
         free = np.setdiff1d(particles, held)
         displaced = rest.positions() - vertices
         self._data.qpos[:] = displaced[free].ravel()
-        self._model.body_pos[self._held] = [agent.start for agent in agents]
+        self._model.body_pos[self._held] = places
         self._engine.mj_forward(self._model, self._data)
 
     def step(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Advance by a time step, at whose end the grips are at (A, 3) [m].
 
-        They move at ``velocities`` (A, 3) [m/s].
+        They move at ``velocities`` (A, 3) [m/s], and keep their orientations.
         """
-        self._model.body_pos[self._held] = positions
+        self._model.body_pos[self._held] = positions[self._grips] + self._arms
         self._engine.mj_step(self._model, self._data)
         carried = velocities.mean(axis=0)
         motion = self._data.qvel.reshape(-1, 3)

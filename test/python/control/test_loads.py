@@ -28,9 +28,13 @@ SCALE = 10.0 / FAR  # of rows with gradients below a tenth of the limit
 
 
 class HeldRod:
-    """The equilibria of a rod that three agents hold; the pin lets bending through."""
+    """The equilibria of a rod that three agents hold; the pin lets bending through.
 
-    def __init__(self, grips=()):
+    Args:
+        **more: what else the rod has.
+    """
+
+    def __init__(self, **more):
         self._rod = _pbd.Rod(
             length=LENGTH,
             radius=0.004,
@@ -43,7 +47,7 @@ class HeldRod:
             solver="direct",
             gravity=GRAVITY,
             orientation=ALONG_Y,
-            grips=list(grips),
+            **more,
         )
         for particle, position, hold in zip(PARTICLES, HELD, ("clamped", "pinned", "clamped")):
             self._rod.hold(particle, hold, position, ALONG_Y)
@@ -83,12 +87,14 @@ class HeldRod:
     def sections(self):
         """What barriers know of its segments, which are of unequal length."""
         joints, ends = list(self._rod.joint_lengths), np.array(self._rod.arc_lengths)
-        shares = {"shares": list(np.diff(ends) / (LENGTH / SEGMENTS))}
+        masses = np.zeros((SEGMENTS, 2))
+        masses[:, 0] = np.diff(ends) / (LENGTH / SEGMENTS)
+        weights = {"masses": masses}
         edges = np.column_stack((np.arange(SEGMENTS), np.arange(SEGMENTS) + 1, np.diff(ends)))
         return {
             "bending": {"joint_lengths": joints},
-            "tension": shares,
-            "twist": shares,
+            "tension": weights,
+            "twist": weights,
             "strain": {"edges": edges},
         }
 
@@ -101,7 +107,7 @@ def held_rod():
 @pytest.fixture(scope="module")
 def gripped_rod():
     """Held by two grippers of a width, so that its segments are of unequal length."""
-    return HeldRod([(0, 0.03), (12, None), (23, 0.05)])
+    return HeldRod(grips=[(0, 0.03), (12, None), (23, 0.05)])
 
 
 def sections():
@@ -109,7 +115,8 @@ def sections():
     mass = 1500.0 * np.pi * 0.004**2 * LENGTH / SEGMENTS
     ends = np.arange(SEGMENTS)
     edges = np.column_stack((ends, ends + 1, np.full(SEGMENTS, LENGTH / SEGMENTS)))
-    joints = {"weight": mass * GRAVITY, "shares": [], "particles": list(PARTICLES)}
+    masses = np.tile([1.0, 0.0], (SEGMENTS, 1))
+    joints = {"weight": mass * GRAVITY, "masses": masses, "particles": list(PARTICLES)}
     stiffness = 7e7 * np.pi * 0.004**4 / 2.0
     return {
         "bending": {"min_radius": 1.0 / FAR, "joint_lengths": [LENGTH / SEGMENTS] * (SEGMENTS - 1)},
@@ -509,13 +516,3 @@ def test_a_load_is_shown_with_its_unit():
     assert BARRIERS["strain"].show(0.5) == "0.5"
     assert BARRIERS["collision"].show(0.0123) == "12.3 mm"
     assert BARRIERS["bending"].show(None) == "none"
-
-
-@pytest.mark.parametrize(
-    "barrier, limit", [("tension", {"max_tension": 50.0}), ("twist", {"max_twist": 5.0})]
-)
-def test_joint_loads_with_point_masses_are_refused(barrier, limit):
-    masses = [{"at": 0.5, "mass": 0.1}]
-    values = [("object.point_masses", str(masses)), (f"controller.{barrier}", str(limit))]
-    with pytest.raises(ScenarioError, match=f"controller.{barrier}: .*object.point_masses"):
-        load_scenario("rope_one_assistant", values)

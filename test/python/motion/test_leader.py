@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
-from deformable_manipulation.motion.leader import LeaderController, LeaderPath
+from deformable_manipulation.motion.leader import LeaderController, LeaderPath, LeaderTurning
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.spec import (
     AgentSpec,
@@ -177,3 +178,72 @@ def test_the_path_alone_sets_the_speed(scenario):
     positions, commands = followed(scenario, 100, (1.0, 2.0, 3.0))
     np.testing.assert_allclose(positions[-1], (1.2, 2.9, 3.1), atol=1e-12)
     assert np.abs(commands).max() > scenario.controller.max_velocity
+
+
+START = tuple(Rotation.from_rotvec([0.3, 0.0, 0.0]).as_quat())
+TURNS = (
+    Waypoint(0.0, (0.0, 0.0, 0.0)),
+    Waypoint(2.0, (0.0, 0.0, 0.0), tuple(Rotation.from_rotvec([0.0, 0.0, 1.2]).as_quat())),
+    Waypoint(5.0, (0.0, 0.0, 0.0), tuple(Rotation.from_rotvec([0.0, 0.8, 1.2]).as_quat())),
+)
+
+
+@pytest.fixture
+def turning(scenario):
+    agents = list(scenario.agents)
+    leader = scenario.leader_index
+    agents[leader] = dataclasses.replace(agents[leader], orientation=START)
+    path = dataclasses.replace(scenario.leader, waypoints=TURNS)
+    return dataclasses.replace(scenario, agents=tuple(agents), leader=path)
+
+
+def turned_for(controller, cycles, orientation):
+    """The orientation after so many cycles; a command acts one cycle late."""
+    velocity, orientations = np.zeros(3), []
+    for cycle in range(cycles):
+        command = controller.update(DT * cycle, orientation.as_quat())
+        orientation = Rotation.from_rotvec(DT * velocity) * orientation
+        velocity = command
+        orientations.append(orientation)
+    return orientations
+
+
+def test_the_grip_is_turned_as_the_waypoints_say(turning):
+    start = Rotation.from_quat(START)
+    passed = turned_for(LeaderTurning(turning), 600, start)
+    for waypoint in TURNS[1:]:
+        wanted = Rotation.from_quat(waypoint.orientation) * start
+        cycle = round(waypoint.time / DT) - 1  # at whose end
+        assert (wanted * passed[cycle].inv()).magnitude() < 1e-6
+    assert (passed[-1] * passed[-2].inv()).magnitude() < 1e-9
+    rates = [(b * a.inv()).magnitude() / DT for a, b in zip(passed, passed[1:])]
+    assert max(np.abs(np.diff(rates))) < 0.03  # rad/s: no leaps
+
+
+def test_a_grip_that_was_turned_away_comes_back_within_the_limit(turning):
+    limit = turning.controller.max_angular_velocity
+    away = Rotation.from_rotvec([0.0, 0.5, 0.0]) * Rotation.from_quat(START)
+    still = dataclasses.replace(
+        turning,
+        leader=dataclasses.replace(
+            turning.leader,
+            waypoints=tuple(dataclasses.replace(each, time=100.0 * each.time) for each in TURNS),
+        ),
+    )
+    passed = turned_for(LeaderTurning(still), 400, away)
+    rates = [(b * a.inv()).magnitude() / DT for a, b in zip(passed, passed[1:])]
+    assert max(rates) < limit + 0.02
+    assert max(rates) > 0.9 * limit
+    assert (passed[-1] * Rotation.from_quat(START).inv()).magnitude() < 0.01
+
+
+def test_a_path_without_turns_turns_nothing(scenario):
+    turning = LeaderTurning(scenario)
+    assert not turning.turns
+    assert not turning.update(0.0, (0.0, 0.6, 0.0, 0.8)).any()
+
+
+def test_orientations_that_are_not_finite_stop_the_turn(turning):
+    controller = LeaderTurning(turning)
+    assert controller.update(1.0, START).any()
+    assert not controller.update(1.01, (np.nan, 0.0, 0.0, 1.0)).any()

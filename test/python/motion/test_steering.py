@@ -3,7 +3,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from deformable_manipulation.motion.leader import LeaderController
+from deformable_manipulation.motion.leader import LeaderController, LeaderTurning
 from deformable_manipulation.motion.steering import (
     DRAG_TIMEOUT,
     DRAGGED,
@@ -194,3 +194,19 @@ def test_the_box_is_around_the_path_unless_it_is_given(scenario):
     for waypoint in scenario.leader.waypoints:
         assert (start + waypoint.position >= np.array(lower) + 0.499).all()
         assert (start + waypoint.position <= np.array(upper) - 0.499).all()
+
+
+def test_the_grip_turns_on_the_path_and_not_by_hand():
+    """From the time on at which the path begins."""
+    scenario = load_scenario("fabric_clamp_bars")
+    run = Run(scenario)
+    orientation = (0.0, 0.0, 0.0, 1.0)
+    assert not run.leader.turn(0.0, orientation).any()  # the path has not begun
+    run.go(1500)  # 15 s, in the middle of the turn
+    now = DT * (run.cycle - 1)
+    own = LeaderTurning(scenario).update(now, orientation)
+    assert own[2] > 0.0
+    np.testing.assert_allclose(run.leader.turn(now, orientation), own)
+    run.leader.steer((0.0, 0.05, 0.0))
+    run.go(1)
+    assert not run.leader.turn(now + DT, orientation).any()

@@ -125,6 +125,8 @@ class BagWriter:
             point_count=len(points),
             agents=list(agents),
             agent_particles=np.zeros(len(agents), np.int32),
+            further_particles=np.zeros(0, np.int32),
+            further_agents=np.zeros(0, np.int32),
             displaced_agents=np.array([-1], np.int32),
             copy_ready=np.array([1], np.uint8),
             agent_positions=np.concatenate(list(agents.values())),

@@ -19,6 +19,7 @@ from deformable_manipulation.recording.summary import summarise
 from deformable_manipulation.recording.timeseries import TimeSeries
 from deformable_manipulation.running.closed_loop import ClosedLoop
 from deformable_manipulation.scenario import ScenarioError, load_scenario
+from deformable_manipulation.scenario.grip_points import held_points
 from deformable_manipulation.validation.fabric import rectangle
 from deformable_manipulation.validation.references.elastica import (
     Clamped,
@@ -100,6 +101,21 @@ def test_a_sheet_hangs_like_the_packages_own():
     size = np.ptp(own, axis=0).max()
     assert 0.0 < np.abs(own - other).max() < 0.06 * size
     assert abs(own[:, 2].min() - other[:, 2].min()) < 0.03 * size
+
+
+def test_a_bar_of_a_sheet_goes_with_its_grip():
+    """Along one edge, which stays straight."""
+    truth = true_scenario(
+        scenario(SMALL_FABRIC, **{"agents.assistant_1.further_particles": [9, 14]})
+    )
+    world = EngineWorld(truth)
+    starts = held_points(truth.object, truth.agents[1])
+    assert sorted(starts) == [4, 9, 14]
+    for _ in range(50):
+        world.set_command(1, (0.0, 0.0, 0.1))
+        world.advance()
+    moved = world.points()[0, list(starts)] - np.array(list(starts.values()))
+    np.testing.assert_allclose(moved, [[0.0, 0.0, 0.05]] * 3, atol=1e-12)
 
 
 def test_a_sheet_stretches_as_theory_says():

@@ -1,7 +1,7 @@
 """The barrier on the torque at the grips."""
 
+from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.scenario.barriers.loads import (
-    demand_rod,
     limit_parameter,
     load_barrier,
     orientations_of_grips,
@@ -9,6 +9,17 @@ from deformable_manipulation.scenario.barriers.loads import (
 )
 
 _MAX_TORQUE = "Greatest torque about a held point that the object exerts on its agent."
+
+
+def _check(report, spec, agents, _controller) -> None:
+    if not isinstance(spec, RodSpec) and not any(agent.further_particles for agent in agents):
+        report.add(
+            ("controller", "grip_torque"),
+            "is for ropes and rods, and for grips that hold several vertices of a fabric "
+            "(further_particles): a single one exerts no torque. Remove the section",
+            spec.type,
+        )
+
 
 BARRIER = load_barrier(
     "grip_torque",
@@ -21,7 +32,7 @@ BARRIER = load_barrier(
     margin="grip torque margin",
     missed="the torque at a grip is too large",
     derive=orientations_of_grips,
-    check=demand_rod("grip_torque", "the vertices of a fabric exert no torque"),
+    check=_check,
     unit="N m",
     needs_wrenches=True,
 )

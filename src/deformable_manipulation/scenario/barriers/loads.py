@@ -3,6 +3,8 @@
 import dataclasses
 from typing import Any, Dict, Tuple
 
+import numpy as np
+
 from deformable_manipulation.objects.rod import RodSpec
 from deformable_manipulation.reading.parameter import parameter
 from deformable_manipulation.reading.readers import Number, Slopes, vector
@@ -101,31 +103,13 @@ def demand_rod(name: str, why: str):
     return check
 
 
-def demand_even_rod(name: str, why: str):
-    """Like :func:`demand_rod`, for barriers that know the weight by the length alone."""
-    is_rod = demand_rod(name, why)
-
-    def check(report, spec, agents, controller) -> None:
-        is_rod(report, spec, agents, controller)
-        if isinstance(spec, RodSpec) and spec.point_masses:
-            report.add(
-                ("controller", name),
-                "does not know the weight of object.point_masses. Remove one of the two sections",
-                "with point masses",
-            )
-
-    return check
-
-
 def weights_between_grips(scenario) -> Dict[str, Any]:
-    """The ``derive`` of a barrier on joints: weights of segments [N], and which are held."""
+    """The ``derive`` of a barrier on joints: weights of the segments, particles that are held."""
     rod = scenario.object
-    usual = rod.length / rod.segments
-    gravity = scenario.simulation.gravity
+    plain = rod.mass_per_length * rod.length / rod.segments  # kg, of a segment that carries nothing
+    masses, moments = rod.segment_masses()
     return {
-        "weight": [rod.mass / rod.segments * component for component in gravity],
-        "shares": []
-        if rod.has_equal_segments
-        else [length / usual for length in rod.segment_lengths],
+        "weight": [plain * component for component in scenario.simulation.gravity],
+        "masses": np.stack((masses / plain, moments / plain), axis=1),
         "particles": [agent.particle for agent in scenario.agents],
     }

@@ -1,7 +1,7 @@
 """The barrier on the tension along a rod."""
 
 from deformable_manipulation.scenario.barriers.loads import (
-    demand_even_rod,
+    demand_rod,
     limit_parameter,
     load_barrier,
     weights_between_grips,
@@ -15,9 +15,7 @@ BARRIER = load_barrier(
     margin="tension margin",
     missed="the tension of the object is too large",
     derive=weights_between_grips,
-    check=demand_even_rod(
-        "tension", "the tension of a fabric is its strain, see controller.strain"
-    ),
+    check=demand_rod("tension", "the tension of a fabric is its strain, see controller.strain"),
     unit="N",
     needs_wrenches=True,
 )

@@ -1,7 +1,7 @@
 """The barrier on the twist along a rod."""
 
 from deformable_manipulation.scenario.barriers.loads import (
-    demand_even_rod,
+    demand_rod,
     limit_parameter,
     load_barrier,
     weights_between_grips,
@@ -21,7 +21,7 @@ BARRIER = load_barrier(
     margin="twist margin",
     missed="the object is twisted too much",
     derive=_derive,
-    check=demand_even_rod("twist", "a fabric has no twist"),
+    check=demand_rod("twist", "a fabric has no twist"),
     unit="rad/m",
     needs_wrenches=True,
 )
