@@ -106,10 +106,10 @@ TEST_P(Gripped, movesFreelyWithItsMomentum) {
   Rod rod(p);
   const RodPieces pieces = rodPieces(p);
   std::vector<double> points(3 * rod.pointCount());
-  std::vector<double> speeds(points.size(), 0.0);
+  Eigen::Matrix3Xd speeds = Eigen::Matrix3Xd::Zero(3, rod.pointCount());
   rod.points(points.data());
   for (int i = 0; i < rod.pointCount(); ++i) {
-    speeds[3 * i + 2] = 0.3 * pieces.ends[i];
+    speeds(2, i) = 0.3 * pieces.ends[i];
   }
   rod.setState(points.data(), speeds.data());
   const auto momentum = [&] {
