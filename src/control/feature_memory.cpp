@@ -14,14 +14,15 @@ constexpr double SAME = 0.1;  // [1] of gradients and normals: the solution of n
 
 }  // namespace
 
-//! Whether a row says the same: neighbouring elements of the object share the point between them.
+//! Whether a row says the same. Its element does not tell: which of two neighbours is found, that share the nearest
+//! point, depends on rounding, and controllers in different processes would come to different plans.
 bool FeatureMemory::isFoundAgain(const Kept& kept, const Features& features) {
   for (int m = 0; m < features.size(); ++m) {
     double difference = (features.normal[m] - kept.normal).cwiseAbs().maxCoeff();
     for (int agent = 0; agent < features.agents(); ++agent) {
       difference = std::max(difference, (features.gradient(m, agent) - kept.gradients[agent]).cwiseAbs().maxCoeff());
     }
-    if (features.identity[m] == kept.identity || difference < SAME) {
+    if (difference < SAME) {
       return true;
     }
   }

@@ -102,7 +102,7 @@ void Horizon::plan(const ObservationView& observation, const PredictedState& pre
   departures_ += change_ * ((unhindered_ ? zero_ : best()) - departures_);
 }
 
-//! What becomes of the assistants by the last plan, and by the nominal law within their velocity alone.
+//! What becomes of the assistants by the last plan and, to first order, by the law within their velocity alone.
 void Horizon::follow(const PredictedState& predicted, const std::vector<Follower>& followers) {
   const std::vector<Vector3>& leader = leader_forecast_.positions();
   paths_.resize(columns());
@@ -116,7 +116,7 @@ void Horizon::follow(const PredictedState& predicted, const std::vector<Follower
     path.velocities.clear();
     path.law.clear();
     path.pulls.clear();
-    Vector3 free = path.positions.front();
+    Vector3 free = Vector3::Zero();
     for (int node = 0; node < parameters_.nodes; ++node) {
       const Vector3 ahead = (leader[node + 1] - leader[node]) / interval_;
       const Vector3 goal = leader[node] + followers[agent].place;
@@ -128,10 +128,16 @@ void Horizon::follow(const PredictedState& predicted, const std::vector<Follower
       path.velocities.push_back(within(path.max_velocity, Vector3(clipped + departures_.segment<3>(variables))));
       path.positions.push_back(path.positions[node] + interval_ * path.velocities[node]);
       from_law_.segment<3>(variables) = path.velocities[node] - path.law[node];
-      free += interval_ * within(path.max_velocity, ahead + gain_ * (goal - free));
-      free_.segment<3>(variables) = free - path.positions[node + 1];
+      const Vector3 unhindered = within(path.max_velocity, lawAt(path, node, free));
+      free += interval_ * (unhindered - path.velocities[node]);
+      free_.segment<3>(variables) = free;
     }
   }
+}
+
+//! [m/s] The law in an interval that begins displaced from the last plan, to first order.
+Vector3 Horizon::lawAt(const Path& path, int node, const Vector3& displacement) {
+  return path.law[node] - path.pulls[node].cwiseProduct(displacement);
 }
 
 //! What is left of each departure at each node, and what that makes for the last plan's ones.
@@ -238,7 +244,7 @@ const Eigen::VectorXd& Horizon::best() {
     Vector3 displacement = Vector3::Zero();
     for (int node = 0; node < parameters_.nodes; ++node) {
       auto departure = best_.segment<3>(variable(node, column));
-      const Vector3 law = path.law[node] - path.pulls[node].cwiseProduct(displacement);
+      const Vector3 law = lawAt(path, node, displacement);
       const Vector3 velocity = law + departure;
       displacement += interval_ * (velocity - path.velocities[node]);
       departure = velocity - within(path.max_velocity, law);

@@ -91,6 +91,8 @@ class Horizon {
     double max_velocity;              // [m/s]
   };
 
+  static Vector3 lawAt(const Path& path, int node, const Vector3& displacement);
+
   std::vector<Path> paths_;     // [M]
   std::vector<double> times_;   // [N] s, of the nodes
   std::vector<Vector3> held_;   // [N x A] m, by the last plan
