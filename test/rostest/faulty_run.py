@@ -52,7 +52,12 @@ class FaultTest(unittest.TestCase):
         cls.states = observe_states()
 
     def setUp(self):
+        before = self.states.wait_for(lambda state: True, "a state", max(0, len(self.states) - 1))
         call("reset", Trigger)
+        # States of the run before are still on their way.
+        self.states.wait_for(
+            lambda state: state.reset_count > before.reset_count, "a new run", len(self.states) - 1
+        )
         self.assert_follows()
         self.log_start = len(self.log)
         self.addCleanup(self.assert_no_other_node_is_gone)
