@@ -24,6 +24,19 @@ def masses():
     return rows
 
 
+ROD = dict(
+    length=loads.LENGTH,
+    radius=0.004,
+    density=1500.0,
+    segments=loads.SEGMENTS,
+    young_modulus=2e8,
+    torsion_modulus=7e7,
+    stretch="from_moduli",
+    damping=10.0,
+    solver="direct",
+)
+
+
 @pytest.fixture(scope="module")
 def loaded_rod():
     return loads.HeldRod(point_masses=POINT_MASSES)
@@ -41,15 +54,7 @@ def test_rows_are_the_gradients_with_point_masses(loaded_rod, name):
 def test_the_tension_is_that_of_the_weights_below(loaded_rod):
     """A rod that hangs from one clamp: the weight of all that is below each joint."""
     rod = _pbd.Rod(
-        length=loads.LENGTH,
-        radius=0.004,
-        density=1500.0,
-        segments=loads.SEGMENTS,
-        young_modulus=2e8,
-        torsion_modulus=7e7,
-        stretch="from_moduli",
-        damping=10.0,
-        solver="direct",
+        **ROD,
         gravity=loads.GRAVITY,
         point_masses=POINT_MASSES,
     )
@@ -125,15 +130,7 @@ def straight_rod(angle):
     [rad] about the rod.
     """
     rod = _pbd.Rod(
-        length=loads.LENGTH,
-        radius=0.004,
-        density=1500.0,
-        segments=loads.SEGMENTS,
-        young_modulus=2e8,
-        torsion_modulus=7e7,
-        stretch="from_moduli",
-        damping=10.0,
-        solver="direct",
+        **ROD,
         gravity=np.zeros(3),
         natural_twist=NATURAL_TWIST,
     )
